@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace glisson {
+
+/// SHA-256 of bytes, as 64 lower-case hexadecimal digits.
+std::string sha256(const void* bytes, std::size_t count);
+
+/// SHA-256 of a file. Throws BadInput where it cannot be read.
+std::string sha256OfFile(const std::filesystem::path& file);
+
+}  // namespace glisson

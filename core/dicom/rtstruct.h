@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dicom/series.h"
+
+namespace glisson::dicom {
+
+/// One closed planar contour of an RT Structure Set.
+struct StructureContour {
+  Eigen::Matrix3Xd points_lps_mm;        ///< 3 × n, not repeated at the end
+  std::string referencedSopInstanceUid;  ///< empty where absent
+};
+
+struct Structure {
+  int number = 0;
+  std::string name;
+  std::vector<StructureContour> contours;
+};
+
+struct StructureSet {
+  std::string frameOfReferenceUid;
+  std::string referencedSeriesUid;
+  std::vector<Structure> structures;
+  std::vector<std::string> warnings;
+};
+
+/// Reads an RT Structure Set (CLOSED_PLANAR and CLOSEDPLANAR_XOR contours; other types are listed in warnings).
+/// Throws BadInput (no RTSTRUCT, coordinates not finite or not a multiple of three ...).
+StructureSet readRtStruct(const std::filesystem::path& file);
+
+/// Writes an RT Structure Set that refers to the given image series: same patient and study as source (its first file),
+/// new series and SOP UIDs derived from seed, SeriesDescription begins "RESEARCH", DS of at most 16 characters.
+void writeRtStruct(const std::filesystem::path& file, const StructureSet& structures, const Series& source,
+                   std::uint64_t seed);
+
+}  // namespace glisson::dicom
