@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "elastography/stiffness_map.h"
+#include "image/volume.h"
+#include "pipeline/scene.h"
+#include "roi/contour_stack.h"
+
+namespace glisson::pipeline {
+
+/// What a scene's files hold, read and checked. The workstation makes one from what is open on screen.
+struct Inputs {
+  std::optional<image::ScalarVolume> mri;               ///< anatomical image
+  std::optional<roi::ContourStack> contours;            ///< region of interest as polygons, where it came as such
+  std::optional<image::Mask> liver;                     ///< region of interest as voxels (MRI grid, or the mask's own)
+  std::optional<elastography::StiffnessMap> stiffness;  ///< MRE or map, with its confidence
+  std::vector<std::string> warnings;
+};
+
+/// Reads what the scene names. Throws BadInput.
+Inputs loadInputs(const Scene& scene, const Progress& progress = {});
+
+}  // namespace glisson::pipeline

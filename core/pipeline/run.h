@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "comparison/difference.h"
+#include "elastography/statistics.h"
+#include "pipeline/inputs.h"
+#include "pipeline/plan.h"
+#include "pipeline/scene.h"
+#include "render/overlay.h"
+#include "retraction/simulate.h"
+
+namespace glisson::pipeline {
+
+struct RunOptions {
+  std::filesystem::path output;  ///< folder for results and pictures; empty: nothing is written
+  render::Palette palette = render::Palette::RedBlue;
+};
+
+/// What one run gives. What was not asked for is empty.
+struct RunResult {
+  std::vector<PlanStep> plan;                               ///< with the seconds each step took
+  retraction::Model model;
+  retraction::Result primary;                               ///< with the scene's own material
+  std::optional<retraction::Result> atlas;                  ///< where the scene compares
+  std::optional<comparison::Difference> difference;
+  std::optional<elastography::Statistics> stiffness;        ///< over the region of interest, where MRE is used
+  std::optional<render::RetractionScene> picture;           ///< what the overlays draw, where they are asked for
+  std::vector<std::filesystem::path> files;                 ///< everything written, run.json first
+  std::vector<std::string> warnings;
+  std::string json;                                         ///< the run record, as in contract.md
+};
+
+/// Does everything the plan says. inputs: already loaded (the workstation), else read from the scene's files.
+/// Throws BadInput, SolverFailed (nothing converged), Cancelled.
+RunResult run(const Scene& scene, const RunOptions& options, const Progress& progress = {}, const Inputs* inputs = nullptr);
+
+}  // namespace glisson::pipeline

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/quantity.h"
+#include "retraction/setup.h"
+
+namespace glisson::pipeline {
+
+/// Where the body comes from.
+struct GeometrySpec {
+  enum class Kind { Box, Mask, Patient } kind = Kind::Box;
+  Eigen::Vector3d size_mm = Eigen::Vector3d::Zero();  ///< Box
+  Eigen::Vector3d cell_mm = Eigen::Vector3d::Zero();  ///< Box; Mask and Patient: 0 = a stated default
+  std::filesystem::path file;                         ///< Mask
+  int label = 0;                                      ///< Mask; 0 = any non-zero
+  std::filesystem::path mri, mre, roi;                ///< Patient: DICOM folder or file, volume, contours
+  std::string roiName;                                ///< Patient: structure to take; empty = found by name
+};
+
+/// Where the stiffness comes from.
+struct MaterialSpec {
+  enum class Kind { Uniform, Map, Mre, Atlas } kind = Kind::Atlas;
+  double value_kPa = 0.0;                             ///< Uniform
+  StiffnessQuantity quantity = StiffnessQuantity::Youngs;
+  std::filesystem::path map;                          ///< Map
+  std::string unit = "kPa";                           ///< Map: "Pa", "kPa" or "<factor>kPa"
+};
+
+/// What is asked for. Nothing that is not asked for is computed.
+struct OutputSpec {
+  std::vector<Eigen::Vector3d> probes_mm;
+  bool displacementField = false, vessels = false, overlay = false, report = false, sofa = false;
+};
+
+/// One declarative scene: schema "glisson/scene/1".
+struct Scene {
+  GeometrySpec geometry;
+  MaterialSpec material;
+  retraction::Setup setup;
+  bool compareWithAtlas = false;
+  OutputSpec outputs;
+  std::filesystem::path folder;  ///< relative paths of the file are resolved against this
+};
+
+/// Reads and checks a scene file. Comments (// and /* */) are allowed. Throws BadInput that names the key and the line for
+/// an unknown key, a wrong type or unit, a missing file or key.
+Scene readScene(const std::filesystem::path& file);
+
+/// The same from text; folder resolves relative paths.
+Scene parseScene(const std::string& text, const std::filesystem::path& folder);
+
+/// A scene as JSON text with every default written out; parseScene of it gives the same scene.
+std::string toJson(const Scene& scene);
+
+}  // namespace glisson::pipeline

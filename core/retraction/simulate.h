@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "image/volume.h"
+#include "mechanics/problem.h"
+#include "retraction/setup.h"
+
+namespace glisson::retraction {
+
+/// The body of a scene: cells on a grid in the patient frame (a box has its own frame: identity axes, and spans [0, size]).
+/// A cell is a voxel: its centre is the voxel's centre.
+struct Model {
+  image::ScalarVolume youngs_kPa;  ///< Young's modulus per cell, 0 outside the body
+  double poisson = defaults::poisson;
+  Density density = defaults::liverDensity;
+  std::size_t cells = 0;
+  double volume_mL = 0.0;
+  double mass_kg = 0.0;
+};
+
+/// Counts cells, volume and mass; throws BadInput naming voxel and slice where a modulus is not usable, or where the body
+/// is not between 0.03 and 0.6 m long and checkSize is set.
+Model makeModel(image::ScalarVolume youngs_kPa, double poisson, Density density, bool checkSize);
+
+/// One simulated retraction, back in mm and the patient frame.
+struct Result {
+  image::DisplacementField u_mm;      ///< at cell centres of the model's grid, 0 outside
+  mechanics::NodalField nodal_u_m;    ///< 3 × nodes, the grid's own axes, m
+  std::vector<Eigen::Vector3d> probe_u_mm;  ///< one per probe, LPS
+  std::vector<std::string> probeWarnings;
+  int dofs = 0;
+  int steps = 0;                      ///< time steps; 0 when static
+  mechanics::SolveReport solver;
+  Eigen::Vector3d load_N = Eigen::Vector3d::Zero();      ///< sum of applied forces, LPS
+  Eigen::Vector3d reaction_N = Eigen::Vector3d::Zero();  ///< sum of support forces, LPS
+  double energy_J = 0.0;
+  double max_strain = 0.0, p95_strain = 0.0, p99_strain = 0.0;   ///< largest principal strain, absolute
+  double fraction_over_10pct = 0.0;   ///< of the volume
+  double max_rotation_deg = 0.0;
+  std::vector<std::string> validity;  ///< warnings in words; empty: linear theory can be trusted
+  bool drawable = true;               ///< false: not converged, inverted cells, displacement larger than the body
+  std::optional<Eigen::Vector3d> retractorPoint_mm;      ///< centre of the contact
+  std::vector<int> contactNodes;
+};
+
+/// Builds the mechanics problem (the one crossing from mm and kPa to SI) and solves it.
+/// Throws BadInput (no support, no contact, unknown region), SolverFailed never: status is in the result.
+Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,
+                const Progress& progress = {});
+
+/// Displacement at points in mm (LPS), by the shape functions of the cell that holds the point; points outside the body
+/// take the nearest cell within one cell, else NaN.
+std::vector<Eigen::Vector3d> displacementAt(const Model& model, const Result& result,
+                                            const std::vector<Eigen::Vector3d>& points_mm);
+
+}  // namespace glisson::retraction
