@@ -1,0 +1,147 @@
+#include "mechanics/row_kernel.h"
+
+#include <cstring>
+#include <utility>
+
+namespace glisson::mechanics {
+namespace {
+
+#define GLISSON_INLINE inline __attribute__((always_inline))
+
+/// Bytes per vector register, as a type of the compiler's own vector extension.
+template <class T, int Bytes>
+struct VectorOf {
+  typedef T type __attribute__((vector_size(Bytes), aligned(alignof(T)), may_alias));
+};
+
+/// (last lane of previous, lanes 0 .. W − 2 of current).
+template <class V, std::size_t... lane>
+GLISSON_INLINE void shiftIn(const V& previous, const V& current, V& shifted, std::index_sequence<lane...>) {
+  shifted = __builtin_shufflevector(previous, current, static_cast<int>(sizeof...(lane) - 1 + lane)...);
+}
+
+/// Sum and difference of two values, in place.
+template <class V>
+GLISSON_INLINE void butterfly(V& a, V& b) {
+  const V sum = a + b;
+  b = a - b;
+  a = sum;
+}
+
+/// Walsh-Hadamard along axes y and z over w[mx][row], row = y + 2 z.
+template <class V>
+GLISSON_INLINE void transformRows(V (&w)[2][4][3]) {
+  for (int m = 0; m < 2; ++m)
+    for (int c = 0; c < 3; ++c) {
+      butterfly(w[m][0][c], w[m][1][c]);
+      butterfly(w[m][2][c], w[m][3][c]);
+      butterfly(w[m][0][c], w[m][2][c]);
+      butterfly(w[m][1][c], w[m][3][c]);
+    }
+}
+
+template <class T, int Bytes>
+GLISSON_INLINE void addRowWith(const RowTask<T>& task, const RowBlocks<T>& blocks) {
+  using V = typename VectorOf<T, Bytes>::type;
+  constexpr std::size_t lanes = static_cast<std::size_t>(Bytes) / sizeof(T);
+  using Lanes = std::make_index_sequence<lanes>;
+  V carry[4][3] = {};
+  for (std::size_t i = 0; i < task.n; i += lanes) {
+    V w[2][4][3];
+#pragma GCC unroll 4
+    for (int r = 0; r < 4; ++r)
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c) {
+        const V left = *reinterpret_cast<const V*>(task.in[r][c] + i);
+        const V right = *reinterpret_cast<const V*>(task.in[r][c] + i + 1);
+        w[0][r][c] = left + right;
+        w[1][r][c] = left - right;
+      }
+    transformRows(w);
+    const V E = *reinterpret_cast<const V*>(task.E + i);
+#pragma GCC unroll 8
+    for (int p = 0; p < 8; ++p) {
+      const auto& B = blocks.b[static_cast<std::size_t>(p)];
+      // Component c of block p is Walsh mode p ⊕ 2^c: bit 0 along x, bits 1 and 2 along y and z.
+      V& x = w[(p ^ 1) & 1][(p ^ 1) >> 1][0];
+      V& y = w[(p ^ 2) & 1][(p ^ 2) >> 1][1];
+      V& z = w[(p ^ 4) & 1][(p ^ 4) >> 1][2];
+      const V fx = B[0] * x + B[1] * y + B[2] * z;
+      const V fy = B[1] * x + B[3] * y + B[4] * z;
+      const V fz = B[2] * x + B[4] * y + B[5] * z;
+      x = E * fx;
+      y = E * fy;
+      z = E * fz;
+    }
+    transformRows(w);
+#pragma GCC unroll 4
+    for (int r = 0; r < 4; ++r)
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c) {
+        const V toLeft = w[0][r][c] + w[1][r][c];
+        const V toRight = w[0][r][c] - w[1][r][c];
+        V shifted;
+        shiftIn(carry[r][c], toRight, shifted, Lanes{});
+        carry[r][c] = toRight;
+        V& out = *reinterpret_cast<V*>(task.out[r][c] + i);
+        out += toLeft + shifted;
+      }
+  }
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 3; ++c) task.out[r][c][task.n] += carry[r][c][lanes - 1];
+}
+
+template <class T>
+void addRowPortable(const RowTask<T>& task, const RowBlocks<T>& blocks) {
+  addRowWith<T, 16>(task, blocks);
+}
+
+#if defined(__x86_64__)
+template <class T>
+__attribute__((target("arch=x86-64-v3"))) void addRowAvx2(const RowTask<T>& task, const RowBlocks<T>& blocks) {
+  addRowWith<T, 32>(task, blocks);
+}
+
+template <class T>
+__attribute__((target("arch=x86-64-v4,prefer-vector-width=512"))) void addRowAvx512(const RowTask<T>& task,
+                                                                                    const RowBlocks<T>& blocks) {
+  addRowWith<T, 64>(task, blocks);
+}
+#endif
+
+template <class T>
+auto fastestRow() {
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd"))
+    return &addRowAvx512<T>;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
+    return &addRowAvx2<T>;
+#endif
+  return &addRowPortable<T>;
+}
+
+}  // namespace
+
+template <class T>
+RowBlocks<T>::RowBlocks(const std::array<Eigen::Matrix3d, 8>& walsh) {
+  for (std::size_t p = 0; p < 8; ++p) {
+    const Eigen::Matrix3d& B = walsh[p];
+    const std::array<double, 6> values = {B(0, 0), B(0, 1), B(0, 2), B(1, 1), B(1, 2), B(2, 2)};
+    for (std::size_t v = 0; v < 6; ++v) b[p][v] = static_cast<T>(values[v]);
+  }
+}
+
+template <class T>
+void addRow(const RowTask<T>& task, const RowBlocks<T>& blocks) {
+  static const auto row = fastestRow<T>();
+  row(task, blocks);
+}
+
+template struct RowBlocks<float>;
+template struct RowBlocks<double>;
+template void addRow<float>(const RowTask<float>&, const RowBlocks<float>&);
+template void addRow<double>(const RowTask<double>&, const RowBlocks<double>&);
+
+}  // namespace glisson::mechanics

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+
+namespace glisson::mechanics {
+
+/// The eight symmetric 3×3 Walsh blocks of K₀ as xx xy xz yy yz zz (see walshBlocks in hex_element.h).
+template <class T>
+struct RowBlocks {
+  std::array<std::array<T, 6>, 8> b{};
+  RowBlocks() = default;
+  explicit RowBlocks(const std::array<Eigen::Matrix3d, 8>& walsh);
+};
+
+/// One row of cells along x and the four node rows it touches, at (j, k), (j + 1, k), (j, k + 1), (j + 1, k + 1).
+template <class T>
+struct RowTask {
+  const T* in[4][3];  ///< per node row and component, at the row's first cell; n + 1 values
+  T* out[4][3];       ///< the same for the result, which is added to
+  const T* E;         ///< n moduli
+  std::size_t n = 0;  ///< cells, a multiple of RowLattice::pad
+};
+
+/// out += Σ over the row's cells of E_e K₀ in. The instruction set is chosen once, at run time.
+template <class T>
+void addRow(const RowTask<T>& task, const RowBlocks<T>& blocks);
+
+}  // namespace glisson::mechanics
