@@ -1,5 +1,6 @@
 #include "mechanics/static_solve.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
