@@ -1,0 +1,132 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "roi/contour_stack.h"
+#include "tools/slice_plane.h"
+
+namespace glisson::tools {
+
+/// Distances of the polygon tool, logical pixels.
+namespace reach {
+inline constexpr double close_px = 10.0;     ///< click on the first vertex closes
+inline constexpr double hit_px = 6.0;        ///< vertex or edge under the mouse; a vertex wins
+inline constexpr double drag_px = 3.0;       ///< less is a click
+inline constexpr double freehand_px = 8.0;   ///< spacing of freehand points
+inline constexpr double simplify = 0.25;     ///< of a pixel spacing: freehand tolerance
+inline constexpr int minimumVoxels = 4;      ///< a smaller region is refused
+}  // namespace reach
+
+/// Where the tool stands. Editing: a closed outline that is not accepted yet is selected. Accepted: an accepted one is.
+enum class ToolState { Idle, Drawing, Editing, Accepted };
+
+struct Modifiers {
+  bool shift = false, ctrl = false;
+};
+
+/// A mouse position of the view.
+struct Pointer {
+  Eigen::Vector2d px = Eigen::Vector2d::Zero();  ///< logical pixels
+  Modifiers modifiers;
+};
+
+enum class ToolKey { Enter, CtrlEnter, Backspace, Delete, Escape };
+
+/// What a gesture asks to change. The tool never changes contours itself: whoever owns them makes one undoable step of each.
+struct AddPolygon { roi::Polygon polygon; };
+struct RemovePolygon { std::size_t index; };
+enum class PointsChange { Move, Insert, Delete };
+struct ChangePoints { std::size_t index; Eigen::Matrix3Xd points_lps_mm; PointsChange change; };
+struct ChangeState { std::size_t index; roi::PolygonState state; };
+using Act = std::variant<AddPolygon, RemovePolygon, ChangePoints, ChangeState>;
+using Acts = std::vector<Act>;
+
+/// What is under the mouse: a vertex, an edge (from vertex to vertex + 1), or the inside of a polygon.
+struct Hit {
+  enum class Kind { Vertex, Edge, Inside } kind = Kind::Vertex;
+  std::size_t polygon = 0;
+  Eigen::Index vertex = 0;  ///< Vertex and Edge
+  bool operator==(const Hit&) const = default;
+};
+
+/// Draws and edits closed polygons on slices. A state machine with no window in it: positions in, acts out.
+class PolygonTool {
+ public:
+  /// contours: watched, never changed; must outlive the tool.
+  explicit PolygonTool(const roi::ContourStack& contours) : contours_(contours) {}
+
+  // Gestures. Each returns the acts it asks for, to be applied at once, in order, before the next gesture.
+  Acts press(const Pointer& at, const SlicePlane& plane);    ///< left button
+  Acts move(const Pointer& at, const SlicePlane& plane);     ///< with or without the left button
+  Acts release(const Pointer& at, const SlicePlane& plane);  ///< left button
+  Acts doubleClick(const Pointer& at, const SlicePlane& plane);
+  Acts rightClick(const Pointer& at, const SlicePlane& plane);
+  Acts key(ToolKey key, const SlicePlane& plane);
+  /// Before another slice, series or tool is shown: parks an unfinished outline as a draft.
+  Acts leaveSlice(const SlicePlane& plane);
+  /// Undo and redo while drawing: whole gestures of the outline in work. False where there is nothing of it to undo.
+  bool undoDrawing();
+  bool redoDrawing();
+  /// After contours were changed by undo, redo or import: forgets what no longer exists.
+  void contoursChanged();
+
+  // What a view shows.
+  ToolState state() const;
+  const Eigen::Matrix3Xd& drawing() const { return points_; }             ///< 3 × n LPS mm, open
+  const std::optional<Eigen::Vector3d>& pointer() const { return pointer_; }  ///< end of the rubber band, LPS mm
+  bool closes() const { return closes_; }                                 ///< the mouse is on the first vertex
+  bool crosses() const { return crosses_; }                               ///< the outline in work crosses itself
+  std::optional<Hit> hover() const { return hover_; }
+  std::optional<std::size_t> selected() const { return selected_; }
+  const std::vector<Eigen::Index>& selectedVertices() const { return vertices_; }
+  /// Points of the selected polygon while it is being dragged; empty otherwise.
+  const Eigen::Matrix3Xd& preview() const { return preview_; }
+  struct Box { Eigen::Vector2d from_px, to_px; };
+  std::optional<Box> box() const { return box_; }
+  /// One sentence for the status line: a refusal, a question, a hint. Empty where there is nothing to say.
+  const std::string& message() const { return message_; }
+
+ private:
+  enum class Drag { None, Press, Freehand, Move, Box };
+
+  std::optional<Hit> hitTest(const Eigen::Vector2d& px, const SlicePlane& plane) const;
+  bool onFirstVertex(const Eigen::Vector2d& px, const SlicePlane& plane) const;
+  Eigen::Vector3d snapped(const Pointer& at, const SlicePlane& plane) const;
+  void addVertex(const Eigen::Vector3d& p_lps);
+  void endFreehand(const SlicePlane& plane);
+  Acts click(const Pointer& at, const SlicePlane& plane);
+  Acts close(const SlicePlane& plane, bool accept);
+  Acts accept(const SlicePlane& plane);
+  Acts removeSelection();
+  std::string refusal(const Eigen::Matrix3Xd& points, const SlicePlane& plane) const;
+  roi::Polygon polygonOf(const SlicePlane& plane, roi::PolygonState state) const;
+  Eigen::Matrix2Xd planePoints(const Eigen::Matrix3Xd& points, const SlicePlane& plane) const;
+  void updateCrossing(const SlicePlane& plane);
+  void select(std::optional<std::size_t> polygon, std::vector<Eigen::Index> vertices = {});
+  void clearDrawing();
+
+  const roi::ContourStack& contours_;
+  Eigen::Matrix3Xd points_;                    ///< of the outline in work
+  std::vector<Eigen::Matrix3Xd> past_;         ///< the outline before each gesture, for undo while drawing
+  std::vector<Eigen::Matrix3Xd> future_;
+  std::optional<Eigen::Vector3d> pointer_;
+  bool closes_ = false, crosses_ = false, asked_ = false;
+  std::optional<Hit> hover_;
+  std::optional<std::size_t> selected_;
+  std::vector<Eigen::Index> vertices_;
+  Eigen::Matrix3Xd preview_;
+  std::optional<Box> box_;
+  std::string message_;
+  Drag drag_ = Drag::None;
+  Eigen::Vector2d pressed_px_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d lastFreehand_px_ = Eigen::Vector2d::Zero();
+  Modifiers pressedModifiers_;
+  std::optional<Hit> pressedHit_;
+  Eigen::Index freehandStart_ = 0;
+};
+
+}  // namespace glisson::tools

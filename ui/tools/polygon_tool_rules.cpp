@@ -1,0 +1,173 @@
+// The rules behind the gestures: what is under the mouse, what closes, what is refused.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "tools/outline.h"
+#include "tools/polygon_tool.h"
+
+namespace glisson::tools {
+
+std::optional<Hit> PolygonTool::hitTest(const Eigen::Vector2d& px, const SlicePlane& plane) const {
+  std::optional<Hit> vertex, edge, inner;
+  double nearestVertex = reach::hit_px, nearestEdge = reach::hit_px, smallest = std::numeric_limits<double>::max();
+  for (std::size_t p = 0; p < contours_.polygons.size(); ++p) {
+    const roi::Polygon& polygon = contours_.polygons[p];
+    if (!plane.holds(polygon)) continue;
+    const Eigen::Index n = polygon.points_lps_mm.cols();
+    Outline outline(2, n);
+    for (Eigen::Index i = 0; i < n; ++i) outline.col(i) = plane.toPixel(polygon.points_lps_mm.col(i));
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double toVertex = (outline.col(i) - px).norm();
+      if (toVertex <= nearestVertex) nearestVertex = toVertex, vertex = Hit{Hit::Kind::Vertex, p, i};
+      const double toEdge = distanceToSegment(px, outline.col(i), outline.col((i + 1) % n));
+      if (toEdge <= nearestEdge) nearestEdge = toEdge, edge = Hit{Hit::Kind::Edge, p, i};
+    }
+    const double area = std::abs(signedArea(outline));
+    if (area < smallest && inside(px, outline)) smallest = area, inner = Hit{Hit::Kind::Inside, p, 0};
+  }
+  if (vertex) return vertex;
+  return edge ? edge : inner;
+}
+
+bool PolygonTool::onFirstVertex(const Eigen::Vector2d& px, const SlicePlane& plane) const {
+  return points_.cols() >= 3 && (plane.toPixel(points_.col(0)) - px).norm() <= reach::close_px;
+}
+
+Eigen::Vector3d PolygonTool::snapped(const Pointer& at, const SlicePlane& plane) const {
+  if (!at.modifiers.shift || points_.cols() == 0) return plane.toLps(at.px);
+  const Eigen::Vector2d last = plane.toPixel(points_.col(points_.cols() - 1));
+  const Eigen::Vector2d way = at.px - last;
+  constexpr double step = std::numbers::pi / 4.0;
+  const double angle = step * std::round(std::atan2(way.y(), way.x()) / step);
+  return plane.toLps(last + way.norm() * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+}
+
+void PolygonTool::addVertex(const Eigen::Vector3d& p_lps) {
+  points_.conservativeResize(3, points_.cols() + 1);
+  points_.col(points_.cols() - 1) = p_lps;
+  asked_ = false;
+}
+
+void PolygonTool::endFreehand(const SlicePlane& plane) {
+  const Eigen::Index start = std::max<Eigen::Index>(freehandStart_ - 1, 0);
+  const Eigen::Matrix3Xd stroke = points_.rightCols(points_.cols() - start);
+  const double tolerance_mm = reach::simplify * plane.grid.spacing_mm.head<2>().minCoeff();
+  const std::vector<Eigen::Index> kept = simplify(planePoints(stroke, plane), tolerance_mm);
+  Eigen::Matrix3Xd shorter(3, start + static_cast<Eigen::Index>(kept.size()));
+  shorter.leftCols(start) = points_.leftCols(start);
+  for (std::size_t i = 0; i < kept.size(); ++i) shorter.col(start + static_cast<Eigen::Index>(i)) = stroke.col(kept[i]);
+  points_ = shorter;
+}
+
+Acts PolygonTool::close(const SlicePlane& plane, bool acceptToo) {
+  message_ = refusal(points_, plane);
+  if (!message_.empty()) return {};
+  const bool crossing = crossesItself(planePoints(points_, plane), true);
+  const bool accepted = acceptToo && !crossing;
+  roi::Polygon polygon = polygonOf(plane, accepted ? roi::PolygonState::Accepted : roi::PolygonState::Draft);
+  clearDrawing();
+  select(contours_.polygons.size());  // its place once it is added
+  if (crossing) message_ = "The outline crosses itself. Move a vertex, or press Enter to accept it all the same.";
+  else if (!accepted) message_ = "Closed. Drag vertices to adjust, Enter to accept.";
+  asked_ = crossing;
+  return {AddPolygon{std::move(polygon)}};
+}
+
+Acts PolygonTool::accept(const SlicePlane& plane) {
+  const roi::Polygon& polygon = contours_.polygons[*selected_];
+  message_ = refusal(polygon.points_lps_mm, plane);
+  if (!message_.empty()) return {};
+  if (!asked_ && crossesItself(planePoints(polygon.points_lps_mm, plane), true)) {
+    asked_ = true;
+    message_ = "The outline crosses itself. Press Enter again to accept it all the same.";
+    return {};
+  }
+  asked_ = false;
+  vertices_.clear();
+  return {ChangeState{*selected_, roi::PolygonState::Accepted}};
+}
+
+Acts PolygonTool::removeSelection() {
+  if (!selected_) return {};
+  const std::size_t index = *selected_;
+  const Eigen::Matrix3Xd& points = contours_.polygons[index].points_lps_mm;
+  const Eigen::Index left = points.cols() - static_cast<Eigen::Index>(vertices_.size());
+  if (vertices_.empty() || left < 3) {
+    if (!vertices_.empty() && left > 0) message_ = "Fewer than three vertices would be left: the whole outline is deleted.";
+    select(std::nullopt);
+    return {RemovePolygon{index}};
+  }
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    if (std::find(vertices_.begin(), vertices_.end(), i) == vertices_.end()) kept.push_back(i);
+  vertices_.clear();
+  return {ChangePoints{index, points(Eigen::all, kept), PointsChange::Delete}};
+}
+
+std::string PolygonTool::refusal(const Eigen::Matrix3Xd& points, const SlicePlane& plane) const {
+  const Outline outline = planePoints(points, plane);
+  const int distinct = distinctPoints(outline, 1e-6);
+  if (distinct < 3)
+    return "A region needs three different vertices, this outline has " + std::to_string(distinct) + ".";
+  roi::ContourStack alone;
+  alone.polygons.push_back(polygonOf(plane, roi::PolygonState::Accepted));
+  alone.polygons.front().points_lps_mm = points;
+  std::ptrdiff_t voxels = 0;
+  try {
+    const image::Mask mask = roi::rasterise(alone, plane.sliceGrid());
+    voxels = std::count(mask.values.begin(), mask.values.end(), std::uint8_t{1});
+  } catch (const BadInput& nothingThere) {
+    return nothingThere.what();
+  }
+  if (voxels < reach::minimumVoxels)
+    return "A region needs at least " + std::to_string(reach::minimumVoxels) + " voxels, this outline holds " +
+           std::to_string(voxels) + ". Draw it larger.";
+  return {};
+}
+
+roi::Polygon PolygonTool::polygonOf(const SlicePlane& plane, roi::PolygonState state) const {
+  roi::Polygon polygon;
+  polygon.points_lps_mm = points_;
+  polygon.state = state;
+  polygon.sopInstanceUid = plane.sopInstanceUid;
+  return polygon;
+}
+
+Eigen::Matrix2Xd PolygonTool::planePoints(const Eigen::Matrix3Xd& points, const SlicePlane& plane) const {
+  Outline flat(2, points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) flat.col(i) = plane.toPlane_mm(points.col(i));
+  return flat;
+}
+
+void PolygonTool::updateCrossing(const SlicePlane& plane) {
+  if (preview_.cols() > 0) {
+    crosses_ = crossesItself(planePoints(preview_, plane), true);
+  } else if (state() == ToolState::Drawing) {
+    Eigen::Matrix3Xd band = points_;
+    if (pointer_ && drag_ != Drag::Freehand && !closes_) {
+      band.conservativeResize(3, band.cols() + 1);
+      band.col(band.cols() - 1) = *pointer_;
+    }
+    crosses_ = crossesItself(planePoints(band, plane), false);
+  } else {
+    crosses_ = false;
+  }
+}
+
+void PolygonTool::select(std::optional<std::size_t> polygon, std::vector<Eigen::Index> vertices) {
+  if (selected_ != polygon) asked_ = false;
+  selected_ = polygon;
+  vertices_ = std::move(vertices);
+}
+
+void PolygonTool::clearDrawing() {
+  points_.resize(3, 0);
+  past_.clear();
+  future_.clear();
+  closes_ = crosses_ = false;
+}
+
+}  // namespace glisson::tools

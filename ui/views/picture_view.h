@@ -1,0 +1,48 @@
+#pragma once
+
+#include <QImage>
+#include <QWidget>
+
+#include "render/overlay.h"
+
+namespace glisson::views {
+
+/// A finished picture, fitted to the widget; wheel with Ctrl, or right drag, zooms; middle or left drag moves; double-click fits.
+/// The plain wheel is passed on as a request for another slice.
+class PictureView : public QWidget {
+  Q_OBJECT
+ public:
+  explicit PictureView(QWidget* parent = nullptr);
+
+  /// The place and zoom are kept while pictures of one size follow each other.
+  void setPicture(const render::Picture& picture);
+  void clear();
+  void setHint(const QString& hint);  ///< shown while there is no picture
+  bool hasPicture() const { return !image_.isNull(); }
+  const QImage& picture() const { return image_; }
+  void fit();
+
+ signals:
+  void sliceWanted(int step);  ///< +1 or −1
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+
+ private:
+  void zoomAt(const QPointF& at, double factor);
+  QImage image_;
+  QString hint_;
+  double zoom_ = 1.0;
+  QPointF offset_;
+  bool fitted_ = true;
+  QPointF pressed_, last_;
+  Qt::MouseButton button_ = Qt::NoButton;
+};
+
+}  // namespace glisson::views

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <QWidget>
+#include <memory>
+
+#include "render/overlay.h"
+
+namespace glisson::views {
+
+class VtkWidget;
+
+/// The 3-D overlay of one retraction: the same drawing as the exported picture, with a camera that the mouse moves.
+class SceneView : public QWidget {
+  Q_OBJECT
+ public:
+  explicit SceneView(QWidget* parent = nullptr);
+
+  void setScene(std::shared_ptr<const render::RetractionScene> scene);
+  void clear();
+  bool hasScene() const { return scene_ != nullptr; }
+  /// Fraction of the displacement that is shown: 0 at rest, 1 retracted. Keeps the camera.
+  void setFraction(double t);
+  void setPalette3D(render::Palette palette);
+  void setView(render::View3D view);
+  void setHint(const QString& hint);
+
+ signals:
+  void rendered();
+
+ private:
+  void populate(bool keepCamera);
+  std::shared_ptr<const render::RetractionScene> scene_;
+  render::SceneOptions3D options_;
+  VtkWidget* widget_;
+  class QLabel* hint_;
+  class QStackedLayout* layout_;
+};
+
+}  // namespace glisson::views

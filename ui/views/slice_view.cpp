@@ -1,0 +1,253 @@
+#include "views/slice_view.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+namespace glisson::views {
+
+namespace {
+
+tools::Pointer pointerOf(const QPointF& at, Qt::KeyboardModifiers modifiers) {
+  tools::Pointer pointer;
+  pointer.px = {at.x(), at.y()};
+  pointer.modifiers.shift = modifiers.testFlag(Qt::ShiftModifier);
+  pointer.modifiers.ctrl = modifiers.testFlag(Qt::ControlModifier);
+  return pointer;
+}
+
+int dominantAxis(const Eigen::Vector3d& direction) {
+  Eigen::Index axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return static_cast<int>(axis);
+}
+
+}  // namespace
+
+SliceView::SliceView(QWidget* parent) : QWidget(parent) {
+  setMouseTracking(true);
+  setFocusPolicy(Qt::StrongFocus);
+  setMinimumSize(220, 220);
+  setCursor(std::nullopt);
+  QWidget::setCursor(Qt::CrossCursor);
+}
+
+void SliceView::setVolume(ShownVolume volume) {
+  const bool sameGrid = volume.values && volume_.values && volume.values->grid.sameGeometry(volume_.values->grid);
+  volume_ = std::move(volume);
+  if (!sameGrid) {
+    slice_ = sliceCount() / 2;
+    fit();
+  }
+  stale_ = true;
+  update();
+  if (hasVolume()) emit sliceChanged(slice_);
+}
+
+void SliceView::setContours(const roi::ContourStack* contours, const tools::PolygonTool* tool) {
+  contours_ = contours;
+  tool_ = tool;
+  update();
+}
+
+void SliceView::setSlice(int slice) {
+  if (!hasVolume()) return;
+  const int wanted = std::clamp(slice, 0, sliceCount() - 1);
+  if (wanted == slice_) return;
+  emit sliceAboutToChange();
+  slice_ = wanted;
+  stale_ = true;
+  update();
+  emit sliceChanged(slice_);
+}
+
+void SliceView::showPoint(const Eigen::Vector3d& p_lps) {
+  if (hasVolume()) setSlice(static_cast<int>(std::lround(volume_.values->grid.lpsToIndex(p_lps).z())));
+}
+
+void SliceView::setCursor(std::optional<Eigen::Vector3d> p_lps) {
+  cursor_ = p_lps;
+  update();
+}
+
+void SliceView::setWindow(double low, double high) {
+  if (!(high > low)) return;
+  volume_.low = low;
+  volume_.high = high;
+  stale_ = true;
+  update();
+}
+
+void SliceView::setHint(const QString& hint) {
+  hint_ = hint;
+  update();
+}
+
+QRectF SliceView::imageArea() const {
+  const double bar = volume_.stiffness ? 64.0 : 0.0;
+  return {8.0, 8.0, std::max(width() - 16.0 - bar, 10.0), std::max(height() - 16.0, 10.0)};
+}
+
+// Screen right is the patient's left in axial and coronal slices and posterior in sagittal ones; down is posterior or inferior.
+Eigen::Vector2d SliceView::axisSigns() const {
+  if (!hasVolume()) return Eigen::Vector2d::Ones();
+  const Eigen::Matrix3d& direction = volume_.values->grid.direction;
+  const int axisI = dominantAxis(direction.col(0)), axisJ = dominantAxis(direction.col(1));
+  const double right = direction.col(0)[axisI] > 0.0 ? 1.0 : -1.0;
+  double down = direction.col(1)[axisJ] > 0.0 ? 1.0 : -1.0;
+  if (axisJ == 2) down = -down;
+  return {right, down};
+}
+
+void SliceView::fit() {
+  fitted_ = true;
+  if (!hasVolume()) return;
+  const image::Grid& grid = volume_.values->grid;
+  const Eigen::Vector2d extent_mm = grid.spacing_mm.head<2>().cwiseProduct(grid.size.head<2>().cast<double>());
+  const QRectF area = imageArea();
+  zoom_px_mm_ = std::min(area.width() / extent_mm.x(), area.height() / extent_mm.y());
+  const Eigen::Vector2d half_mm =
+      0.5 * grid.spacing_mm.head<2>().cwiseProduct((grid.size.head<2>().array() - 1).matrix().cast<double>());
+  offset_px_ = Eigen::Vector2d(area.center().x(), area.center().y()) - zoom_px_mm_ * axisSigns().cwiseProduct(half_mm);
+  update();
+}
+
+tools::SlicePlane SliceView::plane() const {
+  tools::SlicePlane plane;
+  if (!hasVolume()) return plane;
+  plane.grid = volume_.values->grid;
+  plane.slice = slice_;
+  plane.offset_px = offset_px_;
+  plane.scale_px_mm = zoom_px_mm_ * axisSigns();
+  const auto k = static_cast<std::size_t>(slice_);
+  if (k < volume_.sopInstanceUids.size()) plane.sopInstanceUid = volume_.sopInstanceUids[k];
+  return plane;
+}
+
+std::optional<double> SliceView::valueAt(const Eigen::Vector3d& p_lps) const {
+  if (!hasVolume()) return std::nullopt;
+  const image::Grid& grid = volume_.values->grid;
+  const Eigen::Vector3i voxel = grid.lpsToIndex(p_lps).array().round().matrix().cast<int>();
+  if (!grid.contains(voxel)) return std::nullopt;
+  return volume_.values->at(voxel);
+}
+
+void SliceView::zoomAt(const QPointF& at, double factor) {
+  const double wanted = std::clamp(zoom_px_mm_ * factor, 0.2, 60.0);
+  const Eigen::Vector2d centre(at.x(), at.y());
+  offset_px_ = centre + (offset_px_ - centre) * (wanted / zoom_px_mm_);
+  zoom_px_mm_ = wanted;
+  fitted_ = false;
+  if (tool_) emit toolMoved(pointerOf(at, Qt::NoModifier));
+  update();
+}
+
+void SliceView::resizeEvent(QResizeEvent*) {
+  if (fitted_) fit();
+}
+
+void SliceView::mousePressEvent(QMouseEvent* event) {
+  if (!hasVolume()) return;
+  pressed_ = last_ = event->position();
+  moved_ = false;
+  const bool alt = event->modifiers().testFlag(Qt::AltModifier);
+  if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && space_)) drag_ = Drag::Pan;
+  else if (event->button() == Qt::LeftButton && alt) drag_ = Drag::Window;
+  else if (event->button() == Qt::RightButton) drag_ = Drag::Zoom;
+  else if (event->button() == Qt::LeftButton) {
+    drag_ = Drag::Tool;
+    emit toolPressed(pointerOf(event->position(), event->modifiers()));
+  }
+}
+
+void SliceView::mouseMoveEvent(QMouseEvent* event) {
+  if (!hasVolume()) return;
+  const QPointF at = event->position(), step = at - last_;
+  last_ = at;
+  if ((at - pressed_).manhattanLength() > tools::reach::drag_px) moved_ = true;
+  switch (drag_) {
+    case Drag::Pan:
+      offset_px_ += Eigen::Vector2d(step.x(), step.y());
+      fitted_ = false;
+      update();
+      break;
+    case Drag::Zoom:
+      if (moved_) zoomAt(pressed_, std::exp(-step.y() * 0.01));
+      break;
+    case Drag::Window: {
+      // Right widens the window, up makes the picture brighter, relative to what is shown.
+      const double width = volume_.high - volume_.low, level = 0.5 * (volume_.high + volume_.low);
+      const double newWidth = width * std::exp(step.x() * 0.005);
+      const double newLevel = level + step.y() * width * 0.004;
+      setWindow(newLevel - 0.5 * newWidth, newLevel + 0.5 * newWidth);
+      emit windowChanged(volume_.low, volume_.high);
+      break;
+    }
+    case Drag::Tool:
+    case Drag::None:
+      emit toolMoved(pointerOf(at, event->modifiers()));
+      break;
+  }
+  emit cursorMoved(plane().toLps({at.x(), at.y()}));
+  update();
+}
+
+void SliceView::mouseReleaseEvent(QMouseEvent* event) {
+  const Drag was = std::exchange(drag_, Drag::None);
+  if (!hasVolume()) return;
+  if (was == Drag::Tool) emit toolReleased(pointerOf(event->position(), event->modifiers()));
+  if (was == Drag::Zoom && !moved_) emit toolRightClicked(pointerOf(event->position(), event->modifiers()));
+  update();
+}
+
+void SliceView::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (!hasVolume()) return;
+  if (event->button() == Qt::LeftButton) emit toolDoubleClicked(pointerOf(event->position(), event->modifiers()));
+  else if (event->button() == Qt::MiddleButton) fit();
+}
+
+void SliceView::wheelEvent(QWheelEvent* event) {
+  if (!hasVolume() || event->angleDelta().y() == 0) return;
+  const bool up = event->angleDelta().y() > 0;
+  if (event->modifiers().testFlag(Qt::ControlModifier)) zoomAt(event->position(), up ? 1.15 : 1.0 / 1.15);
+  else setSlice(slice_ + (up ? 1 : -1));
+  event->accept();
+}
+
+void SliceView::keyPressEvent(QKeyEvent* event) {
+  const bool ctrl = event->modifiers().testFlag(Qt::ControlModifier);
+  switch (event->key()) {
+    case Qt::Key_Space: space_ = true; return;
+    case Qt::Key_H: hidden_ = true; update(); return;
+    case Qt::Key_Return:
+    case Qt::Key_Enter: emit toolKey(ctrl ? tools::ToolKey::CtrlEnter : tools::ToolKey::Enter); return;
+    case Qt::Key_Backspace: emit toolKey(tools::ToolKey::Backspace); return;
+    case Qt::Key_Delete: emit toolKey(tools::ToolKey::Delete); return;
+    case Qt::Key_Escape: emit toolKey(tools::ToolKey::Escape); return;
+    case Qt::Key_Up:
+    case Qt::Key_PageUp: setSlice(slice_ + 1); return;
+    case Qt::Key_Down:
+    case Qt::Key_PageDown: setSlice(slice_ - 1); return;
+    case Qt::Key_Home: setSlice(0); return;
+    case Qt::Key_End: setSlice(sliceCount() - 1); return;
+    default: QWidget::keyPressEvent(event);
+  }
+}
+
+void SliceView::keyReleaseEvent(QKeyEvent* event) {
+  if (event->isAutoRepeat()) return;
+  if (event->key() == Qt::Key_Space) space_ = false;
+  else if (event->key() == Qt::Key_H) hidden_ = false, update();
+  else QWidget::keyReleaseEvent(event);
+}
+
+void SliceView::enterEvent(QEnterEvent*) { setFocus(Qt::MouseFocusReason); }
+
+void SliceView::leaveEvent(QEvent*) {
+  space_ = hidden_ = false;
+  emit cursorLeft();
+}
+
+}  // namespace glisson::views

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <QImage>
+#include <QWidget>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "image/volume.h"
+#include "roi/contour_stack.h"
+#include "tools/polygon_tool.h"
+#include "tools/slice_plane.h"
+
+namespace glisson::views {
+
+/// What a slice view shows.
+struct ShownVolume {
+  std::shared_ptr<const image::ScalarVolume> values;
+  std::shared_ptr<const image::ScalarVolume> confidence;  ///< same grid; hatched below the threshold; may be null
+  double confidenceThreshold = 0.95;                      ///< of 1
+  bool stiffness = false;                                 ///< colour scale with a bar; else grey levels
+  double low = 0.0, high = 1.0;                           ///< window
+  QString title;                                          ///< "MRI", "MRE stiffness": never patient text
+  QString unit;                                           ///< of the value under the cursor
+  std::vector<std::string> sopInstanceUids;               ///< per slice; may be empty
+};
+
+/// One slice of a volume with contours, cursor and readouts. Wheel: slice; Ctrl+wheel or right drag: zoom; middle drag or
+/// Space+drag: pan; Alt+drag: window and level. The left button and keys are passed on to whoever holds the tool.
+class SliceView : public QWidget {
+  Q_OBJECT
+ public:
+  explicit SliceView(QWidget* parent = nullptr);
+
+  void setVolume(ShownVolume volume);
+  void clear() { setVolume({}); }
+  bool hasVolume() const { return volume_.values != nullptr; }
+  const ShownVolume& volume() const { return volume_; }
+
+  /// contours: drawn where they belong to the slice shown. tool: what is in work; null in a view that only shows.
+  /// Both must outlive the view or be set to null.
+  void setContours(const roi::ContourStack* contours, const tools::PolygonTool* tool);
+
+  int slice() const { return slice_; }
+  int sliceCount() const { return volume_.values ? volume_.values->grid.size.z() : 0; }
+  void setSlice(int slice);
+  void showPoint(const Eigen::Vector3d& p_lps);  ///< goes to the slice nearest to the point
+  void setCursor(std::optional<Eigen::Vector3d> p_lps);
+  void setWindow(double low, double high);
+  void fit();
+  void setHint(const QString& hint);  ///< shown in the middle while there is no volume
+
+  /// The map between this view and the patient. Valid while hasVolume().
+  tools::SlicePlane plane() const;
+  /// Value of the voxel under a point, where it lies in the volume.
+  std::optional<double> valueAt(const Eigen::Vector3d& p_lps) const;
+
+ signals:
+  void sliceAboutToChange();
+  void sliceChanged(int slice);
+  void cursorMoved(const Eigen::Vector3d& p_lps);
+  void cursorLeft();
+  void windowChanged(double low, double high);
+  void toolPressed(const glisson::tools::Pointer& at);
+  void toolMoved(const glisson::tools::Pointer& at);
+  void toolReleased(const glisson::tools::Pointer& at);
+  void toolDoubleClicked(const glisson::tools::Pointer& at);
+  void toolRightClicked(const glisson::tools::Pointer& at);
+  void toolKey(glisson::tools::ToolKey key);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  void enterEvent(QEnterEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+
+ private:
+  enum class Drag { None, Tool, Zoom, Pan, Window };
+  void zoomAt(const QPointF& at, double factor);
+  void renderSlice();
+  Eigen::Vector2d axisSigns() const;
+  void paintImage(QPainter& painter) const;
+  void paintContours(QPainter& painter) const;
+  void paintOutlineInWork(QPainter& painter, const tools::SlicePlane& plane) const;
+  void paintCursor(QPainter& painter) const;
+  void paintLabels(QPainter& painter) const;
+  void paintColourBar(QPainter& painter) const;
+  void paintScaleBar(QPainter& painter) const;
+  QRectF imageArea() const;
+
+  ShownVolume volume_;
+  const roi::ContourStack* contours_ = nullptr;
+  const tools::PolygonTool* tool_ = nullptr;
+  int slice_ = 0;
+  double zoom_px_mm_ = 1.0;
+  Eigen::Vector2d offset_px_ = Eigen::Vector2d::Zero();
+  bool fitted_ = true;
+  std::optional<Eigen::Vector3d> cursor_;
+  QImage image_, hatch_;
+  bool stale_ = true;
+  Drag drag_ = Drag::None;
+  QPointF pressed_, last_;
+  bool moved_ = false, space_ = false, hidden_ = false;
+  QString hint_;
+};
+
+}  // namespace glisson::views

@@ -1,0 +1,270 @@
+// How a slice view draws: image, hatching, contours, cursor, letters and bars.
+#include <QPainter>
+#include <QPainterPath>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "views/colour_map.h"
+#include "views/slice_view.h"
+
+namespace glisson::views {
+
+namespace {
+
+constexpr int hatchScale = 6;  // hatch pixels per voxel
+const QColor paper(16, 18, 22);
+const QColor ink(226, 232, 240);
+const QColor faint(148, 160, 176);
+const QColor acceptedColour(255, 209, 71);
+const QColor draftColour(110, 205, 255);
+const QColor crossingColour(255, 82, 160);
+
+QPointF point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
+
+QPolygonF toScreen(const Eigen::Matrix3Xd& points, const tools::SlicePlane& plane) {
+  QPolygonF polygon;
+  polygon.reserve(points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) polygon << point(plane.toPixel(points.col(i)));
+  return polygon;
+}
+
+/// A line that reads on bright and on dark: a dark halo under it.
+void strokeWithHalo(QPainter& painter, const QPainterPath& path, const QColor& colour, double width, bool dashed) {
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(QColor(0, 0, 0, 150), width + 2.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.drawPath(path);
+  QPen pen(colour, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);
+  if (dashed) pen.setDashPattern({4.0, 3.5});
+  painter.setPen(pen);
+  painter.drawPath(path);
+}
+
+QPainterPath pathOf(const QPolygonF& points, bool closed) {
+  QPainterPath path;
+  if (points.isEmpty()) return path;
+  path.addPolygon(points);
+  if (closed) path.closeSubpath();
+  return path;
+}
+
+void drawHandle(QPainter& painter, const QPointF& at, const QColor& colour, bool strong) {
+  const double r = strong ? 4.5 : 3.0;
+  painter.setPen(QPen(QColor(0, 0, 0, 190), 1.2));
+  painter.setBrush(strong ? QColor(Qt::white) : colour);
+  painter.drawRect(QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r));
+}
+
+void textWithHalo(QPainter& painter, const QPointF& at, const QString& text, const QColor& colour) {
+  QPainterPath path;
+  path.addText(at, painter.font(), text);
+  painter.strokePath(path, QPen(QColor(0, 0, 0, 170), 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+  painter.fillPath(path, colour);
+}
+
+QString letterOf(const Eigen::Vector3d& direction) {
+  static const std::array<std::array<const char*, 2>, 3> letters = {{{"R", "L"}, {"A", "P"}, {"I", "S"}}};
+  Eigen::Index axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return QString::fromLatin1(letters[static_cast<std::size_t>(axis)][direction[axis] > 0.0 ? 1 : 0]);
+}
+
+}  // namespace
+
+void SliceView::renderSlice() {
+  stale_ = false;
+  const image::Grid& grid = volume_.values->grid;
+  const int nx = grid.size.x(), ny = grid.size.y();
+  image_ = QImage(nx, ny, QImage::Format_RGB32);
+  const auto& colours = volume_.stiffness ? stiffnessColours() : greyLevels();
+  const double scale = 255.0 / (volume_.high - volume_.low);
+  for (int j = 0; j < ny; ++j) {
+    auto* line = reinterpret_cast<QRgb*>(image_.scanLine(j));
+    const float* values = &volume_.values->values[grid.linear(0, j, slice_)];
+    for (int i = 0; i < nx; ++i) {
+      const double level = (static_cast<double>(values[i]) - volume_.low) * scale;
+      line[i] = colours[static_cast<std::size_t>(std::isfinite(level) ? std::clamp(level, 0.0, 255.0) : 0.0)];
+    }
+  }
+  hatch_ = QImage();
+  if (!volume_.confidence || !volume_.confidence->grid.sameGeometry(grid)) return;
+  hatch_ = QImage(nx * hatchScale, ny * hatchScale, QImage::Format_ARGB32_Premultiplied);
+  hatch_.fill(Qt::transparent);
+  const QRgb shade = qPremultiply(qRgba(8, 10, 14, 120)), stripe = qPremultiply(qRgba(235, 238, 245, 120));
+  for (int j = 0; j < ny; ++j) {
+    const float* confidence = &volume_.confidence->values[grid.linear(0, j, slice_)];
+    for (int i = 0; i < nx; ++i) {
+      if (static_cast<double>(confidence[i]) >= volume_.confidenceThreshold) continue;
+      for (int y = j * hatchScale; y < (j + 1) * hatchScale; ++y) {
+        auto* line = reinterpret_cast<QRgb*>(hatch_.scanLine(y));
+        for (int x = i * hatchScale; x < (i + 1) * hatchScale; ++x) line[x] = (x + y) % 24 < 3 ? stripe : shade;
+      }
+    }
+  }
+}
+
+void SliceView::paintImage(QPainter& painter) const {
+  const tools::SlicePlane shown = plane();
+  const image::Grid& grid = shown.grid;
+  painter.save();
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, !volume_.stiffness);
+  painter.translate(point(shown.offset_px));
+  painter.scale(shown.scale_px_mm.x() * grid.spacing_mm.x(), shown.scale_px_mm.y() * grid.spacing_mm.y());
+  const QRectF cells(-0.5, -0.5, grid.size.x(), grid.size.y());
+  painter.drawImage(cells, image_);
+  if (!hatch_.isNull() && !hidden_) {
+    painter.setRenderHint(QPainter::SmoothPixmapTransform, true);
+    painter.drawImage(cells, hatch_);
+  }
+  painter.restore();
+}
+
+void SliceView::paintContours(QPainter& painter) const {
+  if (!contours_ || hidden_) return;
+  const tools::SlicePlane shown = plane();
+  const std::optional<tools::Hit> hover = tool_ ? tool_->hover() : std::nullopt;
+  for (std::size_t p = 0; p < contours_->polygons.size(); ++p) {
+    const roi::Polygon& polygon = contours_->polygons[p];
+    if (!shown.holds(polygon)) continue;
+    const bool selected = tool_ && tool_->selected() == p;
+    const bool moving = selected && tool_->preview().cols() > 0;
+    const QPolygonF outline = toScreen(moving ? tool_->preview() : polygon.points_lps_mm, shown);
+    const bool accepted = polygon.state == roi::PolygonState::Accepted;
+    const bool crossing = moving && tool_->crosses();
+    const QColor colour = crossing ? crossingColour : accepted ? acceptedColour : draftColour;
+    const QPainterPath path = pathOf(outline, true);
+    if (selected) {
+      QColor wash = colour;
+      wash.setAlpha(28);
+      painter.fillPath(path, wash);
+    }
+    const bool hovered = hover && hover->polygon == p && hover->kind != tools::Hit::Kind::Inside;
+    strokeWithHalo(painter, path, colour, selected || hovered ? 2.0 : 1.5, !accepted || crossing);
+    if (!selected && !hovered) continue;
+    for (int v = 0; v < outline.size(); ++v) {
+      const auto& chosen = tool_->selectedVertices();
+      const bool strong = (selected && std::find(chosen.begin(), chosen.end(), v) != chosen.end()) ||
+                          (hover && hover->polygon == p && hover->kind == tools::Hit::Kind::Vertex && hover->vertex == v);
+      drawHandle(painter, outline[v], colour, strong);
+    }
+  }
+  if (tool_) paintOutlineInWork(painter, shown);
+}
+
+void SliceView::paintOutlineInWork(QPainter& painter, const tools::SlicePlane& shown) const {
+  if (tool_->box()) {
+    painter.setPen(QPen(ink, 1.0, Qt::DashLine));
+    painter.setBrush(QColor(255, 255, 255, 24));
+    painter.drawRect(QRectF(point(tool_->box()->from_px), point(tool_->box()->to_px)).normalized());
+  }
+  if (tool_->drawing().cols() == 0) return;
+  QPolygonF line = toScreen(tool_->drawing(), shown);
+  const QPolygonF vertices = line;
+  if (tool_->closes()) line << vertices.front();
+  else if (tool_->pointer()) line << point(shown.toPixel(*tool_->pointer()));
+  const QColor colour = tool_->crosses() ? crossingColour : draftColour;
+  strokeWithHalo(painter, pathOf(line, false), colour, 1.8, tool_->crosses());
+  if (vertices.size() < 400)
+    for (const QPointF& v : vertices) drawHandle(painter, v, colour, false);
+  painter.setPen(QPen(tool_->closes() ? QColor(Qt::white) : colour, tool_->closes() ? 2.5 : 1.2));
+  painter.setBrush(Qt::NoBrush);
+  const double r = tool_->closes() ? tools::reach::close_px : 6.5;
+  painter.drawEllipse(vertices.front(), r, r);
+}
+
+void SliceView::paintCursor(QPainter& painter) const {
+  if (!cursor_ || underMouse()) return;
+  const QPointF at = point(plane().toPixel(*cursor_));
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.setPen(QPen(QColor(120, 220, 160, 170), 1.0));
+  painter.drawLine(QPointF(at.x(), 0), QPointF(at.x(), at.y() - 8));
+  painter.drawLine(QPointF(at.x(), at.y() + 8), QPointF(at.x(), height()));
+  painter.drawLine(QPointF(0, at.y()), QPointF(at.x() - 8, at.y()));
+  painter.drawLine(QPointF(at.x() + 8, at.y()), QPointF(width(), at.y()));
+  painter.setRenderHint(QPainter::Antialiasing, true);
+}
+
+void SliceView::paintColourBar(QPainter& painter) const {
+  if (!volume_.stiffness) return;
+  const double barHeight = std::min(height() * 0.6, 340.0);
+  const QRectF bar(width() - 58.0, (height() - barHeight) / 2.0, 13.0, barHeight);
+  const auto& colours = stiffnessColours();
+  QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
+  for (std::size_t i = 0; i < colours.size(); i += 15) gradient.setColorAt(static_cast<double>(i) / 255.0, QColor(colours[i]));
+  painter.setPen(QPen(QColor(255, 255, 255, 90), 1.0));
+  painter.setBrush(gradient);
+  painter.drawRect(bar);
+  const double range = volume_.high - volume_.low;
+  for (int tick = 0; tick <= 4; ++tick) {
+    const double y = bar.bottom() - bar.height() * tick / 4.0;
+    painter.setPen(QPen(ink, 1.0));
+    painter.drawLine(QPointF(bar.right(), y), QPointF(bar.right() + 4.0, y));
+    textWithHalo(painter, QPointF(bar.right() + 8.0, y + 4.0), QString::number(volume_.low + range * tick / 4.0, 'g', 3), ink);
+  }
+  textWithHalo(painter, QPointF(bar.left() - 4.0, bar.top() - 12.0), volume_.unit, ink);
+}
+
+void SliceView::paintScaleBar(QPainter& painter) const {
+  double length_mm = 100.0;
+  while (length_mm * zoom_px_mm_ > 0.3 * width() && length_mm > 1.0) length_mm /= length_mm == 50.0 || length_mm == 5.0 ? 2.5 : 2.0;
+  const double length_px = length_mm * zoom_px_mm_;
+  const QPointF right(width() - (volume_.stiffness ? 84.0 : 16.0), height() - 16.0);
+  QPainterPath bar(right - QPointF(length_px, 5.0));
+  bar.lineTo(right - QPointF(length_px, 0.0));
+  bar.lineTo(right);
+  bar.lineTo(right - QPointF(0.0, 5.0));
+  strokeWithHalo(painter, bar, ink, 1.5, false);
+  const QString text = QString::number(length_mm) + QStringLiteral(" mm");
+  const double w = painter.fontMetrics().horizontalAdvance(text);
+  textWithHalo(painter, right - QPointF((length_px + w) / 2.0, 8.0), text, ink);
+}
+
+void SliceView::paintLabels(QPainter& painter) const {
+  const tools::SlicePlane shown = plane();
+  QFont font = painter.font();
+  font.setBold(true);
+  painter.setFont(font);
+  textWithHalo(painter, {14.0, 24.0}, volume_.title, ink);
+  const Eigen::Vector3d right = shown.grid.direction.col(0) * (shown.scale_px_mm.x() > 0 ? 1.0 : -1.0);
+  const Eigen::Vector3d down = shown.grid.direction.col(1) * (shown.scale_px_mm.y() > 0 ? 1.0 : -1.0);
+  const double rightEdge = width() - (volume_.stiffness ? 84.0 : 20.0);
+  textWithHalo(painter, {12.0, height() / 2.0}, letterOf(-right), faint);
+  textWithHalo(painter, {rightEdge, height() / 2.0}, letterOf(right), faint);
+  textWithHalo(painter, {width() / 2.0, 24.0}, letterOf(-down), faint);
+  textWithHalo(painter, {width() / 2.0, height() - 14.0}, letterOf(down), faint);
+  font.setBold(false);
+  painter.setFont(font);
+  QString where = tr("slice %1 / %2").arg(slice_ + 1).arg(sliceCount());
+  textWithHalo(painter, {14.0, 43.0}, where, faint);
+  if (cursor_) {
+    const std::optional<double> value = valueAt(*cursor_);
+    if (value)
+      textWithHalo(painter, {14.0, height() - 16.0},
+                   QString::number(*value, 'f', volume_.stiffness ? 2 : 0) + QLatin1Char(' ') + volume_.unit, ink);
+  }
+}
+
+void SliceView::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), paper);
+  painter.setRenderHint(QPainter::Antialiasing);
+  if (!hasVolume()) {
+    painter.setPen(faint);
+    painter.drawText(rect().adjusted(24, 24, -24, -24), Qt::AlignCenter | Qt::TextWordWrap, hint_);
+    return;
+  }
+  if (stale_) renderSlice();
+  paintImage(painter);
+  paintContours(painter);
+  paintCursor(painter);
+  paintColourBar(painter);
+  paintScaleBar(painter);
+  paintLabels(painter);
+  if (hasFocus()) {
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen(QColor(90, 160, 255, 150), 1.0));
+    painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
+  }
+}
+
+}  // namespace glisson::views
