@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "mechanics/problem.h"
+#include "mechanics/sites.h"
+
+namespace glisson::mechanics {
+
+/// Wendland  φ = (1−r)₊⁴ (4r+1), r = |x − xᵢ| / (α hᵢ), C² [wendland1995piecewise]; a frame acts on the part of its
+/// ball
+///           that is connected with its site inside the ball, so that folded lobes stay apart.
+/// Voronoi   the ratio of distances to the site and to the border of its Voronoi cell, distances along paths through
+///           voxels: 1 at the site, ½ at the border, 0 at the neighbouring sites [faure2011sparse].
+enum class Kernel { Wendland, Voronoi };
+
+struct KernelOptions {
+  Kernel kernel = Kernel::Wendland;
+  int order = 1;       ///< 1: affine frames, 4 functions (12 degrees of freedom); 2: quadratic, 10 (30)
+  double alpha = 0.0;  ///< support radius over spacing, Wendland only; 0 = 2.2 affine, 1.6 quadratic
+};
+
+/// Scalar shape functions wᵢ(x) P_b((x − xᵢ)/hᵢ) at the voxel nodes; wᵢ = φᵢ/Σφ is a partition of unity (1e-12) and
+/// P = 1, x, y, z (, x², y², z², xy, yz, zx), so every polynomial of degree `order` is reproduced exactly.
+class FrameBasis {
+ public:
+  /// Throws BadInput where order is neither 1 nor 2 or alpha is not in [1, 6] (or 0).
+  FrameBasis(const VoxelMesh& mesh, Sites sites, const KernelOptions& options, const Progress& progress = {});
+
+  int frames() const { return sites_.count(); }
+  int functions() const { return options_.order == 1 ? 4 : 10; }
+  const Sites& sites() const { return sites_; }
+  const KernelOptions& options() const { return options_; }
+  /// nodeCount × frames, unitless, rows sum to 1; by frame and by node.
+  const Eigen::SparseMatrix<double>& weights() const { return byFrame_; }
+  const Eigen::SparseMatrix<double, Eigen::RowMajor>& weightsByNode() const { return byNode_; }
+  /// P_b at a point, functions() values.
+  void polynomials(int frame, const Eigen::Vector3d& p_m, double* P) const {
+    const Eigen::Vector3d s = (p_m - sites_.position_m.col(frame)) / sites_.spacing_m[frame];
+    P[0] = 1.0, P[1] = s.x(), P[2] = s.y(), P[3] = s.z();
+    if (options_.order == 1) return;
+    P[4] = s.x() * s.x(), P[5] = s.y() * s.y(), P[6] = s.z() * s.z();
+    P[7] = s.x() * s.y(), P[8] = s.y() * s.z(), P[9] = s.z() * s.x();
+  }
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  using Column = std::vector<std::pair<int, double>>;  ///< {node, φ}, ascending nodes
+  std::vector<Column> wendland(const VoxelMesh& mesh, const Progress& progress);
+  std::vector<Column> voronoi(const VoxelMesh& mesh, const Progress& progress);
+  Column ball(const VoxelMesh& mesh, int frame, double radius_m) const;
+
+  Sites sites_;
+  KernelOptions options_;
+  Eigen::SparseMatrix<double> byFrame_;
+  Eigen::SparseMatrix<double, Eigen::RowMajor> byNode_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace glisson::mechanics

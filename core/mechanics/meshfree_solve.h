@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "base/progress.h"
+#include "mechanics/problem.h"
+
+namespace glisson::mechanics {
+
+/// y = A x; y has the right size already.
+using VectorMap = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& y)>;
+
+/// Conjugate gradients from the start x (warm start), A symmetric positive definite, `precondition` approximates A⁻¹
+/// (empty: none). Stops at iterations, at the tolerance on ‖b − A x‖/‖b‖, at pᵀAp ≤ 0 (Indefinite) or at a value that
+/// is not finite (NotFinite; x is then the last finite iterate). The residual reported is recomputed from x. b = 0
+/// gives 0.
+SolveReport conjugateGradients(const VectorMap& A, const VectorMap& precondition, const Eigen::VectorXd& b,
+                               Eigen::VectorXd& x, int iterations, double tolerance, const Progress& progress = {});
+
+/// The inverse diagonal, or the inverses of the diagonal blocks [border[i], border[i+1]), as a preconditioner.
+VectorMap jacobi(const Eigen::SparseMatrix<double>& A);
+VectorMap blockJacobi(const Eigen::SparseMatrix<double>& A, const std::vector<int>& border);
+
+/// Dense Cholesky of a symmetric positive definite matrix of at most `largest` rows, rows and columns scaled to a unit
+/// diagonal. One thread: the same bits always.
+class DenseCholesky {
+ public:
+  static constexpr Eigen::Index largest = 10000;  ///< 800 MB
+  /// status() is Indefinite or NotFinite where the factor does not exist. Throws BadArgument above `largest` rows.
+  explicit DenseCholesky(const Eigen::SparseMatrix<double>& A);
+  SolveStatus status() const { return status_; }
+  /// x = A⁻¹ b (one column or many). Precondition: status() == Converged.
+  void solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x) const;
+  /// Solve and refine against A until the true residual stops falling (three times at most).
+  SolveReport solve(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b, Eigen::VectorXd& x,
+                    double tolerance) const;
+
+ private:
+  Eigen::MatrixXd L_;
+  Eigen::VectorXd scale_;
+  SolveStatus status_ = SolveStatus::Converged;
+};
+
+}  // namespace glisson::mechanics
