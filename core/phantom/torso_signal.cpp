@@ -1,0 +1,139 @@
+#include "phantom/torso.h"
+
+namespace glisson::phantom {
+namespace {
+
+// Signals relative to 1000. Contrast: fat-suppressed T1-weighted gradient echo in the portal venous phase (blood and
+// renal cortex brightest, fat and fluid dark). Elastography: gradient echo with a long echo time (fluid and fat
+// brighter).
+constexpr Torso::Signal air{4, 3}, skin{330, 210}, fat{105, 300}, muscle{195, 150}, cortical{40, 20}, marrow{170, 120},
+    disc{120, 170}, fluid{55, 420}, cord{170, 230}, liverTissue{430, 215}, blood{800, 330}, bile{60, 430},
+    spleenTissue{500, 330}, renalCortex{760, 350}, renalMedulla{560, 380}, gutWall{380, 230}, gutContent{110, 260},
+    gas{10, 5}, lung{22, 8}, myocardium{360, 190}, gland{400, 220}, diaphragmMuscle{210, 120};
+
+// Paints one tissue over what is there; the soft edge stands for the partial volume effect.
+struct Canvas {
+  Torso::Signal s = air;
+  void over(double d_mm, const Torso::Signal& t, double strength = 1.0, double edge_mm = 2.2) {
+    if (d_mm > 0.5 * edge_mm) return;
+    const double a = std::min(0.5 - d_mm / edge_mm, 1.0) * strength;
+    s.contrast += a * (t.contrast - s.contrast);
+    s.elastography += a * (t.elastography - s.elastography);
+  }
+};
+
+double cylinder_mm(const Point& p, double x, double y, double rx, double ry) {
+  const double k0 = std::hypot((p.x() - x) / rx, (p.y() - y) / ry);
+  return (k0 - 1.0) * std::min(rx, ry);
+}
+
+Torso::Signal scaled(const Torso::Signal& s, double factor) {
+  return {s.contrast * factor, s.elastography * factor};
+}
+
+}  // namespace
+
+Torso::Signal Torso::signal(const Point& p, double body, double liver, double vessel) const {
+  Canvas c;
+  if (body > 2.0) return c.s;
+  const double wall = wall_mm(p);
+  const double depth = body + wall;  // negative inside the cavity
+  const double grain = noise(p, 7.0, seed_ + 20);
+  const double coarse = noise(p, 24.0, seed_ + 21);
+
+  c.over(body, skin);
+  c.over(body + 2.4, scaled(fat, 1.0 + 0.10 * coarse + 0.22 * std::max(grain, 0.0)));
+  const double muscleOuter = depth - 10.0 - 3.0 * coarse;
+  c.over(muscleOuter, scaled(muscle, 1.0 + 0.13 * grain));
+  c.over(muscleOuter + 5.5, fat, 0.55 * smoothStep(-0.1, 0.35, grain), 3.0);
+
+  if (depth < 14.0 && depth > -6.0 && !(p.y() < -52.0 && p.z() < -18.0)) {  // ribs slope down to the front
+    const double pitch = 27.0;
+    double t = std::fmod(p.z() - 0.42 * p.y() + 1000.0 * pitch + 0.04 * std::abs(p.x()), pitch) - 0.5 * pitch;
+    const double rib = std::hypot(t / 6.4, (depth - 3.2) / 4.4) - 1.0;
+    c.over(rib * 4.4, cortical);
+    c.over(rib * 4.4 + 1.5, marrow);
+  }
+
+  const double cavity = depth + 1.0;
+  c.over(cavity, scaled(fat, 1.05 + 0.22 * coarse + 0.12 * grain));
+  const double dome = diaphragm_mm(p);
+  if (dome > -5.0) {
+    c.over(std::max(cavity, -dome + 0.0), diaphragmMuscle);
+    const double air_mm = std::max(cavity + 1.0, -dome + 1.8);
+    c.over(air_mm, scaled(lung, 1.0 + 1.1 * grain + 5.0 * smoothStep(0.42, 0.75, noise(p, 13.0, seed_ + 22))));
+    const double heart = std::max(heart_.distance_mm(p) + 2.0 * coarse, -dome + 2.0);
+    c.over(heart - 4.0 < -dome + 2.0 ? -dome + 2.0 : heart - 4.0, fat);
+    c.over(heart, myocardium);
+    c.over(std::max(heart + 5.0, std::min(leftVentricle_.distance_mm(p), rightVentricle_.distance_mm(p))),
+           scaled(blood, 0.95));
+  }
+
+  if (p.z() < -30.0)
+    for (std::size_t i = 0; i < bowel_.size(); ++i) {
+      const double d = std::max(bowel_[i].distance_mm(p) + 2.0 * coarse, cavity + 3.0);
+      if (d > 2.0) continue;
+      c.over(d, scaled(gutWall, 1.0 + 0.2 * grain));
+      c.over(d + 2.6, scaled(gutContent, 1.0 + 0.6 * coarse + (i % 3 == 0 ? 0.9 : 0.0)));
+      if (i % 4 == 1) c.over(std::max(d + 3.2, p.y() - bowel_[i].centre_lps_mm.y() + 2.0), gas);
+    }
+  c.over(pancreas_.distance_mm(p) + 3.5 * grain + 2.0 * coarse, scaled(gland, 0.95 + 0.12 * grain));
+  const double gut = smoothMin(stomach_.distance_mm(p), antrum_.distance_mm(p), 16.0) + 2.5 * coarse;
+  const double stomach = std::max({gut, cavity + 3.0, dome + 3.0});
+  c.over(stomach, scaled(gutWall, 1.05 + 0.2 * grain));
+  c.over(stomach + 4.0 + 1.2 * grain, scaled(gutContent, 0.9 + 0.35 * coarse));
+  c.over(std::max(stomach + 4.5, p.y() + 30.0 + 1.5 * coarse), gas);  // the patient lies on the back: gas in front
+
+  const double spleen =
+      std::max({without(spleen_.distance_mm(p) + 2.2 * coarse, stomach - 3.0, 6.0), cavity + 2.5, dome + 2.5});
+  c.over(spleen, scaled(spleenTissue, 1.0 + 0.035 * grain));
+
+  for (const Ellipsoid* k : {&rightKidney_, &leftKidney_}) {
+    const double side = k == &rightKidney_ ? 1.0 : -1.0;
+    double d = k->distance_mm(p);
+    if (d > 12.0) continue;
+    Ellipsoid hilum = *k;
+    hilum.centre_lps_mm += Point(side * 20.0, -13.0, 0.0);
+    hilum.radii_mm = Point(15.0, 12.0, 22.0);
+    const double sinus = hilum.distance_mm(p);
+    d = without(d, sinus + 5.0, 4.0);
+    c.over(d, scaled(renalCortex, 1.0 + 0.04 * grain));
+    c.over(d + 7.0 + 3.0 * noise(p, 15.0, seed_ + 23), renalMedulla, 0.8, 3.0);
+    c.over(std::max(d - 1.0, sinus), scaled(fat, 1.2));
+  }
+
+  // Vertebral column with its muscles.
+  const double paraspinal = std::min(cylinder_mm(p, -33, 92, 29, 17), cylinder_mm(p, 33, 92, 29, 17));
+  c.over(std::max(paraspinal, body + 8.0), scaled(muscle, 1.0 + 0.2 * grain));
+  const double psoas = std::min(cylinder_mm(p, -32, 66, 15, 15), cylinder_mm(p, 32, 66, 15, 15));
+  c.over(psoas + 7.0 * smoothStep(-80.0, 10.0, p.z()), muscle);
+  c.over(std::min(cylinder_mm(p, -13, 46, 7, 11), cylinder_mm(p, 17, 48, 7, 11)), scaled(muscle, 1.05));  // crura
+  const double level = std::abs(std::fmod(p.z() + 1000.0 * 34.0, 34.0) - 17.0);  // 17: middle of a disc
+  const double vertebra =
+      cylinder_mm(p, 0, 66, 24.0 - 2.0 * smoothStep(17.0, 0.0, level), 18.0 - 1.5 * smoothStep(17.0, 0.0, level));
+  c.over(vertebra, cortical);
+  c.over(vertebra + 1.8, scaled(marrow, 1.25 + 0.16 * grain));
+  c.over(std::max(vertebra + 1.2, level - 4.5), disc);
+  const double arch = std::max(cylinder_mm(p, 0, 91, 18, 14), level - 12.0);
+  c.over(arch, cortical);
+  c.over(arch + 2.2, marrow);
+  c.over(std::max({std::abs(p.x()) - 3.5, 96.0 - p.y(), p.y() - 112.0, body + 5.0, level - 10.0}), marrow);
+  c.over(cylinder_mm(p, 0, 89, 11.5, 9.5), fluid);
+  c.over(cylinder_mm(p, 0, 89.5, 6.0, 5.0), cord);
+
+  // Liver last of the organs, then everything that holds enhanced blood.
+  c.over(gallbladder_.distance_mm(p), scaled(gutWall, 0.9));
+  c.over(gallbladder_.distance_mm(p) + 1.6,
+         scaled(bile, 1.0 + 1.2 * smoothStep(0.0, 14.0, p.y() - gallbladder_.centre_lps_mm.y())));
+  c.over(liver, scaled(liverTissue, 1.0 + 0.03 * grain + 0.035 * coarse));
+  const double flow = 1.0 + 0.05 * grain;
+  c.over(cylinder_mm(p, 13.0, 39.0 + 0.03 * p.z(), 10.5, 10.5), cortical, 0.6);
+  c.over(cylinder_mm(p, 13.0, 39.0 + 0.03 * p.z(), 9.8, 9.8), scaled(blood, 1.0 * flow));
+  c.over(cava_mm(p), scaled(blood, 0.92 * flow));
+  for (const Capsule& t : portalTrunk_) c.over(t.distance_mm(p), scaled(blood, flow));
+  for (const Capsule& t : hepaticStubs_) c.over(t.distance_mm(p), scaled(blood, 0.95 * flow));
+  c.over(vessel, scaled(blood, 0.97));
+  return c.s;
+}
+
+}  // namespace glisson::phantom

@@ -1,0 +1,137 @@
+#include <optional>
+
+#include "phantom/vessel_tree.h"
+
+namespace glisson::phantom {
+namespace {
+
+constexpr double portalRoot_mm = 6.3;
+constexpr double hepaticRoot_mm = 7.0;  // shared by the veins that open into the vena cava
+constexpr double capsuleGap_mm = 1.2;   // between a vessel's wall and the liver's surface
+constexpr double treeGap_mm = 1.0;      // between the walls of the two trees
+
+using Distance = std::function<double(const Point&)>;
+
+bool inside(const Distance& liver_mm, const Point& a, const Point& b, double radius_mm) {
+  const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / 2.5)));
+  for (int s = 0; s <= steps; ++s)
+    if (liver_mm(a + (b - a) * s / steps) > -(radius_mm + capsuleGap_mm)) return false;
+  return true;
+}
+
+bool clear(const VesselTree& tree, const Point& a, const Point& b, double radius_mm, double gap_mm, bool ownTree) {
+  const auto& nodes = tree.nodes();
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const Point& c = nodes[static_cast<std::size_t>(nodes[i].parent)].p_lps_mm;
+    const Point& d = nodes[i].p_lps_mm;
+    const double reach = radius_mm + tree.radius_mm(static_cast<int>(i)) + gap_mm;
+    const double between = segmentDistance_mm(a, b, c, d);
+    if (between >= reach) continue;
+    // Segments of one tree meet at their forks; only a crossing away from all four ends counts.
+    if (ownTree) {
+      const double ends = std::min({(a - c).norm(), (a - d).norm(), (b - c).norm(), (b - d).norm(),
+                                    Capsule{c, d, 0}.distance_mm(a), Capsule{c, d, 0}.distance_mm(b)});
+      if (ends < 1e-6 || between > 0.5 * reach) continue;
+    }
+    return false;
+  }
+  return true;
+}
+
+// Where the curves of the two trees come too close, or leave the liver, the smaller branch goes.
+std::optional<std::pair<int, int>> conflict(const LiverVessels& v) {  // {tree, node}
+  for (std::size_t i = 1; i < v.portal.nodes().size(); ++i)
+    for (std::size_t j = 1; j < v.hepatic.nodes().size(); ++j) {
+      const auto& p = v.portal.nodes()[i];
+      const auto& h = v.hepatic.nodes()[j];
+      const double rp = v.portal.radius_mm(static_cast<int>(i));
+      const double rh = v.hepatic.radius_mm(static_cast<int>(j));
+      const double reach = rp + rh + 0.5 * treeGap_mm;
+      const double slack = reach + 0.35 * ((p.path_lps_mm.back() - p.path_lps_mm.front()).norm() +
+                                           (h.path_lps_mm.back() - h.path_lps_mm.front()).norm());
+      if (segmentDistance_mm(p.path_lps_mm.front(), p.path_lps_mm.back(), h.path_lps_mm.front(), h.path_lps_mm.back()) >
+          slack)
+        continue;
+      for (std::size_t s = 0; s + 1 < p.path_lps_mm.size(); ++s)
+        for (std::size_t t = 0; t + 1 < h.path_lps_mm.size(); ++t)
+          if (segmentDistance_mm(p.path_lps_mm[s], p.path_lps_mm[s + 1], h.path_lps_mm[t], h.path_lps_mm[t + 1]) <
+              reach)
+            return p.leaves < h.leaves ? std::pair{0, static_cast<int>(i)} : std::pair{1, static_cast<int>(j)};
+    }
+  return std::nullopt;
+}
+
+int leaving(const VesselTree& tree, const Distance& liver_mm) {
+  for (std::size_t i = 1; i < tree.nodes().size(); ++i)
+    for (const Point& p : tree.nodes()[i].path_lps_mm)
+      if (liver_mm(p) > -(tree.radius_mm(static_cast<int>(i)) + 0.3)) return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace
+
+LiverVessels growVessels(const Distance& liver_mm, const Point& low, const Point& high, const Point& portalHilum,
+                         const Point& hepaticConfluence, std::uint64_t seed) {
+  LiverVessels v{VesselTree(portalHilum, portalRoot_mm), VesselTree(hepaticConfluence, hepaticRoot_mm)};
+  Random random = derived(seed, 31);
+  const Point extent = high - low;
+
+  auto grow = [&](VesselTree& own, const VesselTree& other, const Point& terminal, bool toRoot) {
+    return own.add(
+        terminal,
+        [&](const Point& a, const Point& b, double radius) {
+          return inside(liver_mm, a, b, radius) && clear(other, a, b, radius, treeGap_mm, false) &&
+                 clear(own, a, b, radius, 0.0, true);
+        },
+        toRoot);
+  };
+  // The first terminals make the main branches of textbook anatomy; where a liver's shape forbids one, it is pulled in.
+  auto lead = [&](VesselTree& own, const VesselTree& other, const Point& from, Point to, bool toRoot) {
+    for (int i = 0; i < 12; ++i) {
+      if (liver_mm(to) < -8.0 && grow(own, other, to, toRoot)) return;
+      to = from + 0.92 * (to - from) + Point(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3));
+    }
+  };
+  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-62, 14, -6), false);              // right trunk
+  lead(v.hepatic, v.portal, hepaticConfluence, hepaticConfluence + Point(-84, 10, -34), true);  // right vein
+  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(34, -44, 30), true);  // left trunk, umbilical portion
+  lead(v.hepatic, v.portal, hepaticConfluence, hepaticConfluence + Point(-22, -58, -40), true);  // middle vein
+  lead(v.hepatic, v.portal, hepaticConfluence, hepaticConfluence + Point(46, -50, -12), false);  // left vein
+  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-58, -34, 24), false);              // right anterior
+  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-56, 20, -58), false);  // right posterior, inferior
+  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-66, 24, 44), false);   // right posterior, superior
+
+  constexpr int portalTerminals = 150;
+  constexpr int hepaticTerminals = 120;
+  double reach_mm = 26.0;  // a terminal far from the tree serves more tissue: take the far ones first
+  int misses = 0;
+  while ((v.portal.leaves() < portalTerminals || v.hepatic.leaves() < hepaticTerminals) && reach_mm > 5.0) {
+    const Point p = low + extent.cwiseProduct(Point(random.uniform(), random.uniform(), random.uniform()));
+    if (liver_mm(p) > -4.5) continue;
+    const bool portal = v.portal.leaves() * hepaticTerminals <= v.hepatic.leaves() * portalTerminals;
+    VesselTree& own = portal ? v.portal : v.hepatic;
+    const VesselTree& other = portal ? v.hepatic : v.portal;
+    if (own.distance_mm(p) > reach_mm && grow(own, other, p, false)) {
+      misses = 0;
+    } else if (++misses > 40) {
+      reach_mm *= 0.95;
+      misses = 0;
+    }
+  }
+
+  for (;;) {
+    v.portal.curve();
+    v.hepatic.curve();
+    if (const int i = leaving(v.portal, liver_mm); i > 0) {
+      v.portal.prune(i);
+    } else if (const int j = leaving(v.hepatic, liver_mm); j > 0) {
+      v.hepatic.prune(j);
+    } else if (const auto c = conflict(v)) {
+      (c->first == 0 ? v.portal : v.hepatic).prune(c->second);
+    } else {
+      return v;
+    }
+  }
+}
+
+}  // namespace glisson::phantom

@@ -1,0 +1,170 @@
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/quantity.h"
+#include "dicom/rtstruct.h"
+#include "dicom/write_mr.h"
+#include "phantom/phantom.h"
+
+namespace glisson::phantom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int mriSeriesNumber = 4;
+constexpr int mreSeriesNumber = 7;
+
+void writeText(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.flush();
+  if (!out) throw BadInput("cannot write " + file.filename().string() + "; check space and permissions of the folder");
+}
+
+double rounded(double value, double unit) {
+  return std::round(value / unit) * unit;
+}
+
+Json truthOf(const PhantomPatient& patient) {
+  const PhantomTruth& t = patient.truth;
+  Json j;
+  j["schema"] = "glisson/truth/1";
+  j["shear_kPa"] = t.shear_kPa;
+  j["whole_liver_shear_kPa"] = t.wholeLiverShear_kPa;
+  j["noise_kPa"] = t.noise_kPa;
+  j["volume_mL"] = t.volume_mL;
+  j["mre_liver_voxels"] = t.liverVoxels;
+  j["mre_confident_voxels"] = t.confidentVoxels;
+  j["seed"] = t.seed;
+  j["vessels"] = Json::array();
+  for (const VesselBranch& b : t.vessels) {
+    Json points = Json::array();
+    for (const Eigen::Vector3d& p : b.points_lps_mm)
+      points.push_back({rounded(p.x(), 1e-3), rounded(p.y(), 1e-3), rounded(p.z(), 1e-3)});
+    j["vessels"].push_back(
+        {{"name", b.name}, {"parent", b.parent}, {"radius_mm", b.radius_mm}, {"points_lps_mm", points}});
+  }
+  return j;
+}
+
+Json sceneOf(const PhantomPatient& patient) {
+  Json j;
+  j["schema"] = "glisson/scene/1";
+  j["geometry"] = {{"kind", "patient"}, {"mri", "mri"}, {"mre", "mre"}, {"roi", "rtstruct.dcm"}};
+  j["material"] = "mre";
+  j["supports"] = Json::array();
+  for (const char* surface : {"posterior", "superior"})
+    j["supports"].push_back({{"region", {{"surface", surface}}}, {"kind", "spring"}, {"stiffness_kPa_per_mm", 0.2}});
+  j["loads"] = Json::array({{{"kind", "retractor"},
+                             {"diameter_mm", defaults::retractorDiameter.mm()},
+                             {"length_mm", 80},
+                             {"at", "inferior-right-lobe"},
+                             {"force", "liver-weight"},
+                             {"direction", "transverse"}}});
+  j["model"] = {{"kind", "fem-hex"}};
+  j["compare"] = {{"against", "atlas"}};
+  j["outputs"] = {"vessels", "overlay", "report"};
+  j["seed"] = patient.number;
+  return j;
+}
+
+}  // namespace
+
+void writePhantom(const PhantomPatient& patient, const std::filesystem::path& folder) {
+  char number[16];
+  std::snprintf(number, sizeof number, "%03d", patient.number);
+  const std::string root = "glisson phantom " + std::to_string(patient.truth.seed) + " " + number;
+
+  dicom::MrSeriesHeader h;
+  h.patientName = std::string("PHANTOM^") + number;
+  h.patientId = std::string("PHANTOM-") + number;
+  h.patientSex = "O";
+  h.studyUid = dicom::uidFrom(root + " study");
+  h.studyId = number;
+  h.studyDescription = "ABDOMEN MR ELASTOGRAPHY";
+  h.frameOfReferenceUid = dicom::uidFrom(root + " frame");
+
+  dicom::MrSeriesHeader mri = h;
+  mri.seriesUid = dicom::uidFrom(root + " mri");
+  mri.seriesNumber = mriSeriesNumber;
+  mri.seriesDescription = "Ax LAVA +C PORTAL VENOUS";
+  mri.sequenceVariant = "SS\\SP\\SK";
+  mri.scanOptions = "FAST_GEMS\\FS";
+  mri.acquisitionType = "3D";
+  mri.pulseSequence = "efgre3d";
+  mri.contrastAgent = "GADOLINIUM";
+  mri.repetitionTime_ms = 3.6;
+  mri.echoTime_ms = 1.7;
+  mri.flipAngle_deg = 12.0;
+  mri.windowCenter = 430.0;
+  mri.windowWidth = 860.0;
+  const dicom::WrittenSeries images = dicom::writeMrSeries(folder / "mri", mri, patient.mri);
+
+  // One acquisition, and the maps the scanner makes of it: series n gives n·100 + 1, + 2, + 5 and + 7.
+  auto map = [&](const char* name, int offset, const char* description, const char* derivation) {
+    dicom::MrSeriesHeader m = h;
+    m.seriesUid = dicom::uidFrom(root + " " + name);
+    m.seriesNumber = offset == 0 ? mreSeriesNumber : mreSeriesNumber * 100 + offset;
+    m.seriesDescription = description;
+    m.pulseSequence = "fgremre";
+    m.derivation = derivation;
+    if (offset != 0) m.imageType = {"DERIVED", "SECONDARY", "OTHER"};
+    return m;
+  };
+  const std::filesystem::path mre = folder / "mre";
+  dicom::MrSeriesHeader magnitude = map("magnitude", 0, "Ax MRE 60Hz", "");
+  magnitude.windowCenter = 200.0;
+  magnitude.windowWidth = 400.0;
+  dicom::writeMrSeries(mre / "magnitude", magnitude, patient.magnitude);
+  dicom::MrSeriesHeader stiffness = map("stiffness", 1, "Ax MRE 60Hz Stiffness (Pa)", "Shear stiffness in Pa");
+  stiffness.windowCenter = 4000.0;
+  stiffness.windowWidth = 8000.0;
+  dicom::writeMrSeries(mre / "stiffness", stiffness, patient.stiffness_Pa);
+  dicom::MrSeriesHeader wave =
+      map("wave", 5, "Ax MRE 60Hz Wave", "Shear wave image in radians = pixel * pi / (WindowWidth / 2)");
+  wave.windowCenter = 0.0;
+  wave.windowWidth = PhantomPatient::waveWindowWidth;
+  dicom::writeMrSeries(mre / "wave", wave, patient.wave);
+  dicom::MrSeriesHeader confidence =
+      map("confidence", 7, "Ax MRE 60Hz Confidence", "Confidence of the shear stiffness, 0 to 999");
+  confidence.windowCenter = 500.0;
+  confidence.windowWidth = 1000.0;
+  dicom::writeMrSeries(mre / "confidence", confidence, patient.confidence);
+  const dicom::MrSeriesHeader colour =
+      map("colour", 2, "Ax MRE 60Hz Colour Stiffness 0-8 kPa", "Colour picture of the shear stiffness");
+  dicom::writeMrColourSeries(mre / "colour", colour, patient.colour);
+
+  dicom::Series source;
+  source.uid = mri.seriesUid;
+  source.studyUid = h.studyUid;
+  source.frameOfReferenceUid = h.frameOfReferenceUid;
+  source.modality = "MR";
+  source.description = mri.seriesDescription;
+  source.number = mri.seriesNumber;
+  source.role = dicom::SeriesRole::Anatomical;
+  source.roleReason = "The phantom's contrast-enhanced series.";
+  source.files = images.files;
+  source.sopInstanceUids = images.sopInstanceUids;
+  source.sopClassUid = "1.2.840.10008.5.1.4.1.1.4";  // MR Image Storage
+  source.grid = patient.mri.grid;
+  dicom::StructureSet set;
+  set.frameOfReferenceUid = h.frameOfReferenceUid;
+  set.referencedSeriesUid = mri.seriesUid;
+  dicom::Structure liver;
+  liver.number = 1;
+  liver.name = "liver";
+  for (const roi::Polygon& p : patient.contours.polygons) {
+    const auto k = static_cast<std::size_t>(std::lround(patient.mri.grid.lpsToIndex(p.points_lps_mm.col(0)).z()));
+    liver.contours.push_back({p.points_lps_mm, images.sopInstanceUids.at(k)});
+  }
+  set.structures.push_back(std::move(liver));
+  dicom::writeRtStruct(folder / "rtstruct.dcm", set, source, patient.truth.seed);
+
+  writeText(folder / "scene.json", sceneOf(patient).dump(2) + "\n");
+  writeText(folder / "truth.json", truthOf(patient).dump(1) + "\n");
+}
+
+}  // namespace glisson::phantom
