@@ -7,7 +7,8 @@
 
 namespace glisson::commands {
 
-/// One undoable act on the contours. apply after revert gives the same contours to the last bit, and the other way round.
+/// One undoable act on the contours. apply after revert gives the same contours to the last bit, and the other way
+/// round.
 class Command {
  public:
   virtual ~Command() = default;

@@ -145,7 +145,8 @@ Acts PolygonTool::click(const Pointer& at, const SlicePlane& plane) {
     const Eigen::Matrix3Xd& points = contours_.polygons[index].points_lps_mm;
     if (pressedHit_->kind == Hit::Kind::Edge) {
       select(index, {pressedHit_->vertex + 1});
-      return {ChangePoints{index, withPoint(points, pressedHit_->vertex + 1, plane.toLps(at.px)), PointsChange::Insert}};
+      return {
+          ChangePoints{index, withPoint(points, pressedHit_->vertex + 1, plane.toLps(at.px)), PointsChange::Insert}};
     }
     select(index, {pressedHit_->vertex});
     return removeSelection();
@@ -157,8 +158,10 @@ Acts PolygonTool::click(const Pointer& at, const SlicePlane& plane) {
     if (at.modifiers.shift && selected_ == pressedHit_->polygon) {
       for (const Eigen::Index v : clicked) {
         const auto found = std::find(vertices_.begin(), vertices_.end(), v);
-        if (found == vertices_.end()) vertices_.push_back(v);
-        else vertices_.erase(found);
+        if (found == vertices_.end())
+          vertices_.push_back(v);
+        else
+          vertices_.erase(found);
       }
     } else {
       select(pressedHit_->polygon, clicked);
@@ -167,8 +170,10 @@ Acts PolygonTool::click(const Pointer& at, const SlicePlane& plane) {
   }
   const bool insideAny = pressedHit_.has_value();
   if (selected_ && !(at.modifiers.shift && insideAny)) {
-    if (insideAny) select(pressedHit_->polygon, allOf(contours_.polygons[pressedHit_->polygon].points_lps_mm));
-    else select(std::nullopt);
+    if (insideAny)
+      select(pressedHit_->polygon, allOf(contours_.polygons[pressedHit_->polygon].points_lps_mm));
+    else
+      select(std::nullopt);
     return {};
   }
   // Idle, or Shift inside a region: the first vertex (of a hole, by the even-odd rule, where it lies inside a region).

@@ -13,12 +13,12 @@ namespace glisson::tools {
 
 /// Distances of the polygon tool, logical pixels.
 namespace reach {
-inline constexpr double close_px = 10.0;     ///< click on the first vertex closes
-inline constexpr double hit_px = 6.0;        ///< vertex or edge under the mouse; a vertex wins
-inline constexpr double drag_px = 3.0;       ///< less is a click
-inline constexpr double freehand_px = 8.0;   ///< spacing of freehand points
-inline constexpr double simplify = 0.25;     ///< of a pixel spacing: freehand tolerance
-inline constexpr int minimumVoxels = 4;      ///< a smaller region is refused
+inline constexpr double close_px = 10.0;    ///< click on the first vertex closes
+inline constexpr double hit_px = 6.0;       ///< vertex or edge under the mouse; a vertex wins
+inline constexpr double drag_px = 3.0;      ///< less is a click
+inline constexpr double freehand_px = 8.0;  ///< spacing of freehand points
+inline constexpr double simplify = 0.25;    ///< of a pixel spacing: freehand tolerance
+inline constexpr int minimumVoxels = 4;     ///< a smaller region is refused
 }  // namespace reach
 
 /// Where the tool stands. Editing: a closed outline that is not accepted yet is selected. Accepted: an accepted one is.
@@ -36,12 +36,24 @@ struct Pointer {
 
 enum class ToolKey { Enter, CtrlEnter, Backspace, Delete, Escape };
 
-/// What a gesture asks to change. The tool never changes contours itself: whoever owns them makes one undoable step of each.
-struct AddPolygon { roi::Polygon polygon; };
-struct RemovePolygon { std::size_t index; };
+/// What a gesture asks to change. The tool never changes contours itself: whoever owns them makes one undoable step of
+/// each.
+struct AddPolygon {
+  roi::Polygon polygon;
+};
+struct RemovePolygon {
+  std::size_t index;
+};
 enum class PointsChange { Move, Insert, Delete };
-struct ChangePoints { std::size_t index; Eigen::Matrix3Xd points_lps_mm; PointsChange change; };
-struct ChangeState { std::size_t index; roi::PolygonState state; };
+struct ChangePoints {
+  std::size_t index;
+  Eigen::Matrix3Xd points_lps_mm;
+  PointsChange change;
+};
+struct ChangeState {
+  std::size_t index;
+  roi::PolygonState state;
+};
 using Act = std::variant<AddPolygon, RemovePolygon, ChangePoints, ChangeState>;
 using Acts = std::vector<Act>;
 
@@ -76,16 +88,18 @@ class PolygonTool {
 
   // What a view shows.
   ToolState state() const;
-  const Eigen::Matrix3Xd& drawing() const { return points_; }             ///< 3 × n LPS mm, open
+  const Eigen::Matrix3Xd& drawing() const { return points_; }                 ///< 3 × n LPS mm, open
   const std::optional<Eigen::Vector3d>& pointer() const { return pointer_; }  ///< end of the rubber band, LPS mm
-  bool closes() const { return closes_; }                                 ///< the mouse is on the first vertex
-  bool crosses() const { return crosses_; }                               ///< the outline in work crosses itself
+  bool closes() const { return closes_; }                                     ///< the mouse is on the first vertex
+  bool crosses() const { return crosses_; }                                   ///< the outline in work crosses itself
   std::optional<Hit> hover() const { return hover_; }
   std::optional<std::size_t> selected() const { return selected_; }
   const std::vector<Eigen::Index>& selectedVertices() const { return vertices_; }
   /// Points of the selected polygon while it is being dragged; empty otherwise.
   const Eigen::Matrix3Xd& preview() const { return preview_; }
-  struct Box { Eigen::Vector2d from_px, to_px; };
+  struct Box {
+    Eigen::Vector2d from_px, to_px;
+  };
   std::optional<Box> box() const { return box_; }
   /// One sentence for the status line: a refusal, a question, a hint. Empty where there is nothing to say.
   const std::string& message() const { return message_; }
@@ -110,8 +124,8 @@ class PolygonTool {
   void clearDrawing();
 
   const roi::ContourStack& contours_;
-  Eigen::Matrix3Xd points_;                    ///< of the outline in work
-  std::vector<Eigen::Matrix3Xd> past_;         ///< the outline before each gesture, for undo while drawing
+  Eigen::Matrix3Xd points_;             ///< of the outline in work
+  std::vector<Eigen::Matrix3Xd> past_;  ///< the outline before each gesture, for undo while drawing
   std::vector<Eigen::Matrix3Xd> future_;
   std::optional<Eigen::Vector3d> pointer_;
   bool closes_ = false, crosses_ = false, asked_ = false;

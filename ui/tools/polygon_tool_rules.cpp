@@ -70,8 +70,10 @@ Acts PolygonTool::close(const SlicePlane& plane, bool acceptToo) {
   roi::Polygon polygon = polygonOf(plane, accepted ? roi::PolygonState::Accepted : roi::PolygonState::Draft);
   clearDrawing();
   select(contours_.polygons.size());  // its place once it is added
-  if (crossing) message_ = "The outline crosses itself. Move a vertex, or press Enter to accept it all the same.";
-  else if (!accepted) message_ = "Closed. Drag vertices to adjust, Enter to accept.";
+  if (crossing)
+    message_ = "The outline crosses itself. Move a vertex, or press Enter to accept it all the same.";
+  else if (!accepted)
+    message_ = "Closed. Drag vertices to adjust, Enter to accept.";
   asked_ = crossing;
   return {AddPolygon{std::move(polygon)}};
 }
@@ -96,7 +98,8 @@ Acts PolygonTool::removeSelection() {
   const Eigen::Matrix3Xd& points = contours_.polygons[index].points_lps_mm;
   const Eigen::Index left = points.cols() - static_cast<Eigen::Index>(vertices_.size());
   if (vertices_.empty() || left < 3) {
-    if (!vertices_.empty() && left > 0) message_ = "Fewer than three vertices would be left: the whole outline is deleted.";
+    if (!vertices_.empty() && left > 0)
+      message_ = "Fewer than three vertices would be left: the whole outline is deleted.";
     select(std::nullopt);
     return {RemovePolygon{index}};
   }

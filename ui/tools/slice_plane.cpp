@@ -14,8 +14,7 @@ Eigen::Vector2d SlicePlane::toPixel(const Eigen::Vector3d& p_lps) const {
 
 Eigen::Vector3d SlicePlane::toLps(const Eigen::Vector2d& p_px) const {
   const Eigen::Vector2d plane_mm = (p_px - offset_px).cwiseQuotient(scale_px_mm);
-  return grid.origin_lps_mm +
-         grid.direction * Eigen::Vector3d(plane_mm.x(), plane_mm.y(), grid.spacing_mm.z() * slice);
+  return grid.origin_lps_mm + grid.direction * Eigen::Vector3d(plane_mm.x(), plane_mm.y(), grid.spacing_mm.z() * slice);
 }
 
 bool SlicePlane::holds(const roi::Polygon& polygon) const {

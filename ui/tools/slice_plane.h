@@ -11,13 +11,13 @@ namespace glisson::tools {
 /// One slice of a grid as a view shows it: the map between logical pixels of the view and LPS mm.
 struct SlicePlane {
   image::Grid grid;
-  int slice = 0;                                                ///< k of the grid
-  Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();          ///< where the centre of voxel (0, 0, slice) is shown
-  Eigen::Vector2d scale_px_mm = Eigen::Vector2d::Ones();        ///< logical pixels per mm along i, j; negative = flipped
-  std::string sopInstanceUid;                                   ///< of the image shown; empty where unknown
+  int slice = 0;                                          ///< k of the grid
+  Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();    ///< where the centre of voxel (0, 0, slice) is shown
+  Eigen::Vector2d scale_px_mm = Eigen::Vector2d::Ones();  ///< logical pixels per mm along i, j; negative = flipped
+  std::string sopInstanceUid;                             ///< of the image shown; empty where unknown
 
   Eigen::Vector2d toPixel(const Eigen::Vector3d& p_lps) const;
-  Eigen::Vector3d toLps(const Eigen::Vector2d& p_px) const;     ///< a point exactly in the plane of the slice
+  Eigen::Vector3d toLps(const Eigen::Vector2d& p_px) const;  ///< a point exactly in the plane of the slice
 
   /// In-plane coordinates (mm along i and j from voxel (0, 0)), for geometry that must not depend on the zoom.
   Eigen::Vector2d toPlane_mm(const Eigen::Vector3d& p_lps) const;

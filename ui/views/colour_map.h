@@ -5,8 +5,8 @@
 
 namespace glisson::views {
 
-/// Colours of the stiffness map, from dark blue (0) by green and yellow to dark red (1): lightness rises and falls once,
-/// in the order radiologists know from elastograms.
+/// Colours of the stiffness map, from dark blue (0) by green and yellow to dark red (1): lightness rises and falls
+/// once, in the order radiologists know from elastograms.
 const std::array<QRgb, 256>& stiffnessColours();
 
 /// Grey levels.

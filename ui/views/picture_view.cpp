@@ -8,7 +8,9 @@
 
 namespace glisson::views {
 
-PictureView::PictureView(QWidget* parent) : QWidget(parent) { setMinimumSize(240, 240); }
+PictureView::PictureView(QWidget* parent) : QWidget(parent) {
+  setMinimumSize(240, 240);
+}
 
 void PictureView::setPicture(const render::Picture& picture) {
   const QImage view(picture.rgb.data(), picture.width, picture.height, 3 * picture.width, QImage::Format_RGB888);
@@ -72,8 +74,10 @@ void PictureView::resizeEvent(QResizeEvent*) {
 void PictureView::wheelEvent(QWheelEvent* event) {
   if (image_.isNull() || event->angleDelta().y() == 0) return;
   const bool up = event->angleDelta().y() > 0;
-  if (event->modifiers().testFlag(Qt::ControlModifier)) zoomAt(event->position(), up ? 1.15 : 1.0 / 1.15);
-  else emit sliceWanted(up ? 1 : -1);
+  if (event->modifiers().testFlag(Qt::ControlModifier))
+    zoomAt(event->position(), up ? 1.15 : 1.0 / 1.15);
+  else
+    emit sliceWanted(up ? 1 : -1);
   event->accept();
 }
 
@@ -95,8 +99,12 @@ void PictureView::mouseMoveEvent(QMouseEvent* event) {
   }
 }
 
-void PictureView::mouseReleaseEvent(QMouseEvent*) { button_ = Qt::NoButton; }
+void PictureView::mouseReleaseEvent(QMouseEvent*) {
+  button_ = Qt::NoButton;
+}
 
-void PictureView::mouseDoubleClickEvent(QMouseEvent*) { fit(); }
+void PictureView::mouseDoubleClickEvent(QMouseEvent*) {
+  fit();
+}
 
 }  // namespace glisson::views

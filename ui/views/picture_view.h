@@ -7,8 +7,8 @@
 
 namespace glisson::views {
 
-/// A finished picture, fitted to the widget; wheel with Ctrl, or right drag, zooms; middle or left drag moves; double-click fits.
-/// The plain wheel is passed on as a request for another slice.
+/// A finished picture, fitted to the widget; wheel with Ctrl, or right drag, zooms; middle or left drag moves;
+/// double-click fits. The plain wheel is passed on as a request for another slice.
 class PictureView : public QWidget {
   Q_OBJECT
  public:

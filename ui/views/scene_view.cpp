@@ -24,7 +24,9 @@ SceneView::SceneView(QWidget* parent)
   connect(widget_, &VtkWidget::rendered, this, &SceneView::rendered);
 }
 
-void SceneView::setHint(const QString& hint) { hint_->setText(hint); }
+void SceneView::setHint(const QString& hint) {
+  hint_->setText(hint);
+}
 
 void SceneView::setScene(std::shared_ptr<const render::RetractionScene> scene) {
   scene_ = std::move(scene);
@@ -32,7 +34,9 @@ void SceneView::setScene(std::shared_ptr<const render::RetractionScene> scene) {
   populate(false);
 }
 
-void SceneView::clear() { setScene(nullptr); }
+void SceneView::clear() {
+  setScene(nullptr);
+}
 
 void SceneView::setFraction(double t) {
   if (options_.t == t) return;

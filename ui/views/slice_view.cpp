@@ -90,7 +90,8 @@ QRectF SliceView::imageArea() const {
   return {8.0, 8.0, std::max(width() - 16.0 - bar, 10.0), std::max(height() - 16.0, 10.0)};
 }
 
-// Screen right is the patient's left in axial and coronal slices and posterior in sagittal ones; down is posterior or inferior.
+// Screen right is the patient's left in axial and coronal slices and posterior in sagittal ones; down is posterior or
+// inferior.
 Eigen::Vector2d SliceView::axisSigns() const {
   if (!hasVolume()) return Eigen::Vector2d::Ones();
   const Eigen::Matrix3d& direction = volume_.values->grid.direction;
@@ -153,9 +154,12 @@ void SliceView::mousePressEvent(QMouseEvent* event) {
   pressed_ = last_ = event->position();
   moved_ = false;
   const bool alt = event->modifiers().testFlag(Qt::AltModifier);
-  if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && space_)) drag_ = Drag::Pan;
-  else if (event->button() == Qt::LeftButton && alt) drag_ = Drag::Window;
-  else if (event->button() == Qt::RightButton) drag_ = Drag::Zoom;
+  if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && space_))
+    drag_ = Drag::Pan;
+  else if (event->button() == Qt::LeftButton && alt)
+    drag_ = Drag::Window;
+  else if (event->button() == Qt::RightButton)
+    drag_ = Drag::Zoom;
   else if (event->button() == Qt::LeftButton) {
     drag_ = Drag::Tool;
     emit toolPressed(pointerOf(event->position(), event->modifiers()));
@@ -204,46 +208,77 @@ void SliceView::mouseReleaseEvent(QMouseEvent* event) {
 
 void SliceView::mouseDoubleClickEvent(QMouseEvent* event) {
   if (!hasVolume()) return;
-  if (event->button() == Qt::LeftButton) emit toolDoubleClicked(pointerOf(event->position(), event->modifiers()));
-  else if (event->button() == Qt::MiddleButton) fit();
+  if (event->button() == Qt::LeftButton)
+    emit toolDoubleClicked(pointerOf(event->position(), event->modifiers()));
+  else if (event->button() == Qt::MiddleButton)
+    fit();
 }
 
 void SliceView::wheelEvent(QWheelEvent* event) {
   if (!hasVolume() || event->angleDelta().y() == 0) return;
   const bool up = event->angleDelta().y() > 0;
-  if (event->modifiers().testFlag(Qt::ControlModifier)) zoomAt(event->position(), up ? 1.15 : 1.0 / 1.15);
-  else setSlice(slice_ + (up ? 1 : -1));
+  if (event->modifiers().testFlag(Qt::ControlModifier))
+    zoomAt(event->position(), up ? 1.15 : 1.0 / 1.15);
+  else
+    setSlice(slice_ + (up ? 1 : -1));
   event->accept();
 }
 
 void SliceView::keyPressEvent(QKeyEvent* event) {
   const bool ctrl = event->modifiers().testFlag(Qt::ControlModifier);
   switch (event->key()) {
-    case Qt::Key_Space: space_ = true; return;
-    case Qt::Key_H: hidden_ = true; update(); return;
+    case Qt::Key_Space:
+      space_ = true;
+      return;
+    case Qt::Key_H:
+      hidden_ = true;
+      update();
+      return;
     case Qt::Key_Return:
-    case Qt::Key_Enter: emit toolKey(ctrl ? tools::ToolKey::CtrlEnter : tools::ToolKey::Enter); return;
-    case Qt::Key_Backspace: emit toolKey(tools::ToolKey::Backspace); return;
-    case Qt::Key_Delete: emit toolKey(tools::ToolKey::Delete); return;
-    case Qt::Key_Escape: emit toolKey(tools::ToolKey::Escape); return;
+    case Qt::Key_Enter:
+      emit toolKey(ctrl ? tools::ToolKey::CtrlEnter : tools::ToolKey::Enter);
+      return;
+    case Qt::Key_Backspace:
+      emit toolKey(tools::ToolKey::Backspace);
+      return;
+    case Qt::Key_Delete:
+      emit toolKey(tools::ToolKey::Delete);
+      return;
+    case Qt::Key_Escape:
+      emit toolKey(tools::ToolKey::Escape);
+      return;
     case Qt::Key_Up:
-    case Qt::Key_PageUp: setSlice(slice_ + 1); return;
+    case Qt::Key_PageUp:
+      setSlice(slice_ + 1);
+      return;
     case Qt::Key_Down:
-    case Qt::Key_PageDown: setSlice(slice_ - 1); return;
-    case Qt::Key_Home: setSlice(0); return;
-    case Qt::Key_End: setSlice(sliceCount() - 1); return;
-    default: QWidget::keyPressEvent(event);
+    case Qt::Key_PageDown:
+      setSlice(slice_ - 1);
+      return;
+    case Qt::Key_Home:
+      setSlice(0);
+      return;
+    case Qt::Key_End:
+      setSlice(sliceCount() - 1);
+      return;
+    default:
+      QWidget::keyPressEvent(event);
   }
 }
 
 void SliceView::keyReleaseEvent(QKeyEvent* event) {
   if (event->isAutoRepeat()) return;
-  if (event->key() == Qt::Key_Space) space_ = false;
-  else if (event->key() == Qt::Key_H) hidden_ = false, update();
-  else QWidget::keyReleaseEvent(event);
+  if (event->key() == Qt::Key_Space)
+    space_ = false;
+  else if (event->key() == Qt::Key_H)
+    hidden_ = false, update();
+  else
+    QWidget::keyReleaseEvent(event);
 }
 
-void SliceView::enterEvent(QEnterEvent*) { setFocus(Qt::MouseFocusReason); }
+void SliceView::enterEvent(QEnterEvent*) {
+  setFocus(Qt::MouseFocusReason);
+}
 
 void SliceView::leaveEvent(QEvent*) {
   space_ = hidden_ = false;

@@ -27,8 +27,8 @@ struct ShownVolume {
   std::vector<std::string> sopInstanceUids;               ///< per slice; may be empty
 };
 
-/// One slice of a volume with contours, cursor and readouts. Wheel: slice; Ctrl+wheel or right drag: zoom; middle drag or
-/// Space+drag: pan; Alt+drag: window and level. The left button and keys are passed on to whoever holds the tool.
+/// One slice of a volume with contours, cursor and readouts. Wheel: slice; Ctrl+wheel or right drag: zoom; middle drag
+/// or Space+drag: pan; Alt+drag: window and level. The left button and keys are passed on to whoever holds the tool.
 class SliceView : public QWidget {
   Q_OBJECT
  public:

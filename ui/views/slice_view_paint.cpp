@@ -20,7 +20,9 @@ const QColor acceptedColour(255, 209, 71);
 const QColor draftColour(110, 205, 255);
 const QColor crossingColour(255, 82, 160);
 
-QPointF point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
+QPointF point(const Eigen::Vector2d& p) {
+  return {p.x(), p.y()};
+}
 
 QPolygonF toScreen(const Eigen::Matrix3Xd& points, const tools::SlicePlane& plane) {
   QPolygonF polygon;
@@ -143,8 +145,9 @@ void SliceView::paintContours(QPainter& painter) const {
     if (!selected && !hovered) continue;
     for (int v = 0; v < outline.size(); ++v) {
       const auto& chosen = tool_->selectedVertices();
-      const bool strong = (selected && std::find(chosen.begin(), chosen.end(), v) != chosen.end()) ||
-                          (hover && hover->polygon == p && hover->kind == tools::Hit::Kind::Vertex && hover->vertex == v);
+      const bool strong =
+          (selected && std::find(chosen.begin(), chosen.end(), v) != chosen.end()) ||
+          (hover && hover->polygon == p && hover->kind == tools::Hit::Kind::Vertex && hover->vertex == v);
       drawHandle(painter, outline[v], colour, strong);
     }
   }
@@ -160,8 +163,10 @@ void SliceView::paintOutlineInWork(QPainter& painter, const tools::SlicePlane& s
   if (tool_->drawing().cols() == 0) return;
   QPolygonF line = toScreen(tool_->drawing(), shown);
   const QPolygonF vertices = line;
-  if (tool_->closes()) line << vertices.front();
-  else if (tool_->pointer()) line << point(shown.toPixel(*tool_->pointer()));
+  if (tool_->closes())
+    line << vertices.front();
+  else if (tool_->pointer())
+    line << point(shown.toPixel(*tool_->pointer()));
   const QColor colour = tool_->crosses() ? crossingColour : draftColour;
   strokeWithHalo(painter, pathOf(line, false), colour, 1.8, tool_->crosses());
   if (vertices.size() < 400)
@@ -190,7 +195,8 @@ void SliceView::paintColourBar(QPainter& painter) const {
   const QRectF bar(width() - 58.0, (height() - barHeight) / 2.0, 13.0, barHeight);
   const auto& colours = stiffnessColours();
   QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
-  for (std::size_t i = 0; i < colours.size(); i += 15) gradient.setColorAt(static_cast<double>(i) / 255.0, QColor(colours[i]));
+  for (std::size_t i = 0; i < colours.size(); i += 15)
+    gradient.setColorAt(static_cast<double>(i) / 255.0, QColor(colours[i]));
   painter.setPen(QPen(QColor(255, 255, 255, 90), 1.0));
   painter.setBrush(gradient);
   painter.drawRect(bar);
@@ -199,14 +205,16 @@ void SliceView::paintColourBar(QPainter& painter) const {
     const double y = bar.bottom() - bar.height() * tick / 4.0;
     painter.setPen(QPen(ink, 1.0));
     painter.drawLine(QPointF(bar.right(), y), QPointF(bar.right() + 4.0, y));
-    textWithHalo(painter, QPointF(bar.right() + 8.0, y + 4.0), QString::number(volume_.low + range * tick / 4.0, 'g', 3), ink);
+    textWithHalo(painter, QPointF(bar.right() + 8.0, y + 4.0),
+                 QString::number(volume_.low + range * tick / 4.0, 'g', 3), ink);
   }
   textWithHalo(painter, QPointF(bar.left() - 4.0, bar.top() - 12.0), volume_.unit, ink);
 }
 
 void SliceView::paintScaleBar(QPainter& painter) const {
   double length_mm = 100.0;
-  while (length_mm * zoom_px_mm_ > 0.3 * width() && length_mm > 1.0) length_mm /= length_mm == 50.0 || length_mm == 5.0 ? 2.5 : 2.0;
+  while (length_mm * zoom_px_mm_ > 0.3 * width() && length_mm > 1.0)
+    length_mm /= length_mm == 50.0 || length_mm == 5.0 ? 2.5 : 2.0;
   const double length_px = length_mm * zoom_px_mm_;
   const QPointF right(width() - (volume_.stiffness ? 84.0 : 16.0), height() - 16.0);
   QPainterPath bar(right - QPointF(length_px, 5.0));

@@ -43,7 +43,9 @@ void onIsCurrent(vtkObject*, unsigned long, void* client, void* answer) {
   *static_cast<bool*>(answer) = contextIsCurrent(*static_cast<QOpenGLWidget*>(client));
 }
 
-void onRenderAsked(vtkObject*, unsigned long, void* client, void*) { static_cast<QOpenGLWidget*>(client)->update(); }
+void onRenderAsked(vtkObject*, unsigned long, void* client, void*) {
+  static_cast<QOpenGLWidget*>(client)->update();
+}
 
 }  // namespace
 
@@ -88,7 +90,9 @@ VtkWidget::~VtkWidget() {
   d_->interactor->RemoveAllObservers();
 }
 
-vtkRenderer* VtkWidget::renderer() const { return d_->renderer; }
+vtkRenderer* VtkWidget::renderer() const {
+  return d_->renderer;
+}
 
 void VtkWidget::fitCamera() {
   d_->renderer->ResetCamera();
@@ -113,7 +117,7 @@ void VtkWidget::initializeGL() {
     makeCurrent();
     releaseGraphics();
     doneCurrent();
-  }, Qt::UniqueConnection);
+  });
 }
 
 void VtkWidget::resizeGL(int, int) {
@@ -164,16 +168,21 @@ bool VtkWidget::event(QEvent* event) {
         return true;
       }
       const bool press = event->type() != QEvent::MouseButtonRelease;
-      if (mouse->button() == Qt::LeftButton) press ? d_->interactor->LeftButtonPressEvent() : d_->interactor->LeftButtonReleaseEvent();
-      if (mouse->button() == Qt::MiddleButton) press ? d_->interactor->MiddleButtonPressEvent() : d_->interactor->MiddleButtonReleaseEvent();
-      if (mouse->button() == Qt::RightButton) press ? d_->interactor->RightButtonPressEvent() : d_->interactor->RightButtonReleaseEvent();
+      if (mouse->button() == Qt::LeftButton)
+        press ? d_->interactor->LeftButtonPressEvent() : d_->interactor->LeftButtonReleaseEvent();
+      if (mouse->button() == Qt::MiddleButton)
+        press ? d_->interactor->MiddleButtonPressEvent() : d_->interactor->MiddleButtonReleaseEvent();
+      if (mouse->button() == Qt::RightButton)
+        press ? d_->interactor->RightButtonPressEvent() : d_->interactor->RightButtonReleaseEvent();
       return true;
     }
     case QEvent::Wheel: {
       const auto* wheel = static_cast<QWheelEvent*>(event);
       place(wheel->position(), wheel->modifiers(), 0);
-      if (wheel->angleDelta().y() > 0) d_->interactor->MouseWheelForwardEvent();
-      else if (wheel->angleDelta().y() < 0) d_->interactor->MouseWheelBackwardEvent();
+      if (wheel->angleDelta().y() > 0)
+        d_->interactor->MouseWheelForwardEvent();
+      else if (wheel->angleDelta().y() < 0)
+        d_->interactor->MouseWheelBackwardEvent();
       return true;
     }
     default:

@@ -7,8 +7,8 @@ class vtkRenderer;
 
 namespace glisson::views {
 
-/// The one bridge between Qt 6 and VTK: a QOpenGLWidget that shows a vtkGenericOpenGLRenderWindow. Mouse and wheel turn,
-/// move and zoom the camera (trackball).
+/// The one bridge between Qt 6 and VTK: a QOpenGLWidget that shows a vtkGenericOpenGLRenderWindow. Mouse and wheel
+/// turn, move and zoom the camera (trackball).
 class VtkWidget : public QOpenGLWidget {
   Q_OBJECT
  public:

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <variant>
+
+#include "commands/add_polygon.h"
+#include "commands/change_points.h"
+#include "commands/change_state.h"
+#include "commands/remove_polygon.h"
+#include "tools/polygon_tool.h"
+
+namespace glisson::session {
+
+/// The undoable command for what a gesture asks.
+inline std::unique_ptr<commands::Command> commandOf(const tools::Act& act, const roi::ContourStack& contours) {
+  return std::visit(
+      [&contours](const auto& a) -> std::unique_ptr<commands::Command> {
+        using A = std::decay_t<decltype(a)>;
+        if constexpr (std::is_same_v<A, tools::AddPolygon>) {
+          return std::make_unique<commands::AddPolygon>(a.polygon);
+        } else if constexpr (std::is_same_v<A, tools::RemovePolygon>) {
+          return std::make_unique<commands::RemovePolygon>(contours, a.index);
+        } else if constexpr (std::is_same_v<A, tools::ChangeState>) {
+          return std::make_unique<commands::ChangeState>(contours, a.index, a.state);
+        } else {
+          const char* text = a.change == tools::PointsChange::Move     ? "move vertices"
+                             : a.change == tools::PointsChange::Insert ? "insert vertex"
+                                                                       : "delete vertices";
+          return std::make_unique<commands::ChangePoints>(contours, a.index, a.points_lps_mm, text);
+        }
+      },
+      act);
+}
+
+}  // namespace glisson::session
