@@ -26,6 +26,8 @@ target_link_libraries(glisson_dcmtk INTERFACE ${DCMTK_LIBRARIES})
 add_library(glisson_itk INTERFACE)
 target_include_directories(glisson_itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
 target_link_libraries(glisson_itk INTERFACE ${ITK_LIBRARIES})
+# ITK's headers would bring their own, older Eigen, which cannot share a source file with ours.
+target_compile_definitions(glisson_itk INTERFACE ITK_USE_SYSTEM_EIGEN)
 
 find_package(OpenGL REQUIRED COMPONENTS EGL OpenGL)
 
