@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/quantity.h"
-#include "image/volume.h"
+#include "retraction/simulate.h"
 
 namespace glisson::comparison {
 
@@ -17,5 +17,11 @@ struct Difference {
   double vesselMean_mm = 0.0, vesselP95_mm = 0.0, vesselMax_mm = 0.0;
   double vesselFractionBeyond = 0.0;                 ///< share of landmarks ≥ 5 mm apart
 };
+
+/// Compares two retractions of the same model grid under the same load. landmarks_mm: vessel centrelines at rest (LPS).
+/// Throws BadArgument where the two were not made on the same mesh.
+Difference compare(const retraction::Model& model, const retraction::Result& a, const retraction::Result& b,
+                   const std::vector<Eigen::Vector3d>& landmarks_mm,
+                   Length significant = defaults::clinicallySignificant);
 
 }  // namespace glisson::comparison

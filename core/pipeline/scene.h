@@ -17,6 +17,7 @@ struct GeometrySpec {
   Eigen::Vector3d size_mm = Eigen::Vector3d::Zero();  ///< Box
   Eigen::Vector3d cell_mm = Eigen::Vector3d::Zero();  ///< Box; Mask and Patient: 0 = a stated default
   std::filesystem::path file;                         ///< Mask
+  std::filesystem::path background;                   ///< Mask: image to draw the overlays on; may be empty
   int label = 0;                                      ///< Mask; 0 = any non-zero
   std::filesystem::path mri, mre, roi;                ///< Patient: DICOM folder or file, volume, contours
   std::string roiName;                                ///< Patient: structure to take; empty = found by name
@@ -37,12 +38,18 @@ struct OutputSpec {
   bool displacementField = false, vessels = false, overlay = false, report = false, sofa = false;
 };
 
+/// What the scene is compared with: the same body and load with one textbook modulus.
+struct CompareSpec {
+  double value_kPa = defaults::atlasShear.kPa();
+  StiffnessQuantity quantity = StiffnessQuantity::Shear;
+};
+
 /// One declarative scene: schema "glisson/scene/1".
 struct Scene {
   GeometrySpec geometry;
   MaterialSpec material;
   retraction::Setup setup;
-  bool compareWithAtlas = false;
+  std::optional<CompareSpec> compare;
   OutputSpec outputs;
   std::filesystem::path folder;  ///< relative paths of the file are resolved against this
 };

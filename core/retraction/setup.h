@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
@@ -22,7 +24,7 @@ struct FaceRegion { std::string face; };
 struct SurfaceRegion { std::string surface; };
 struct BoxRegion { Eigen::Vector3d low_mm, high_mm; };                      ///< nodes and faces inside, borders included
 struct PlaneRegion { Eigen::Vector3d point_mm, normal; double tolerance_mm; };  ///< within tolerance of the plane
-struct MaskRegion { image::Mask mask; std::string name; };                 ///< what lies in a voxel of the mask
+struct MaskRegion { std::filesystem::path file; int label = 0; };          ///< what lies in a voxel of the mask (label 0: any)
 using Region = std::variant<FaceRegion, SurfaceRegion, BoxRegion, PlaneRegion, MaskRegion>;
 
 struct SupportSpec {
@@ -40,6 +42,7 @@ struct Pressure { Region region; double kPa; };  ///< positive pushes against th
 struct Retractor {
   double diameter_mm = 10.0;
   double length_mm = 80.0;
+  double spread_mm = 0.0;                   ///< standard deviation of the contact pressure beyond the bar; 0 = bare bar
   std::optional<Eigen::Vector3d> at_mm;     ///< empty: inferior right lobe, found from geometry
   std::optional<double> force_N;            ///< empty: the liver's weight
   Eigen::Vector3d direction{0, -1, 0};      ///< of the hoist, LPS; "transverse" = towards anterior, in the transverse plane
@@ -63,6 +66,9 @@ struct AnalysisSpec {
   double stopWhenSteady = 1e-6;                  ///< relative change per step; 0 = never
 };
 
+/// How strain follows from displacement.
+enum class Kinematics { Linear, Corotational, Hyperelastic };
+
 /// All of a mechanics scene but its geometry and stiffness.
 struct Setup {
   double poisson = defaults::poisson;
@@ -70,8 +76,10 @@ struct Setup {
   std::vector<SupportSpec> supports;
   std::vector<LoadSpec> loads;
   ModelSpec model;
+  Kinematics kinematics = Kinematics::Linear;
   AnalysisSpec analysis;
   mechanics::SolverOptions solver;
+  bool condensed = false;   ///< answer through the condensed response of the full model instead of the solve itself
   std::uint64_t seed = 1;
 };
 

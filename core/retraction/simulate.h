@@ -41,6 +41,7 @@ struct Result {
   double max_strain = 0.0, p95_strain = 0.0, p99_strain = 0.0;   ///< largest principal strain, absolute
   double fraction_over_10pct = 0.0;   ///< of the volume
   double max_rotation_deg = 0.0;
+  double max_displacement_mm = 0.0;
   std::vector<std::string> validity;  ///< warnings in words; empty: linear theory can be trusted
   bool drawable = true;               ///< false: not converged, inverted cells, displacement larger than the body
   std::optional<Eigen::Vector3d> retractorPoint_mm;      ///< centre of the contact

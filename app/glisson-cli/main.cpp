@@ -1,0 +1,79 @@
+// The command line: parses, calls one verb, turns exceptions into one line and an exit code.
+#include <clocale>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <locale>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/version.h"
+#include "verbs.h"
+
+namespace {
+
+int report(int code, const std::string& message) {
+  std::string line = message;
+  for (char& c : line)
+    if (c == '\n' || c == '\r') c = ' ';
+  std::cerr << "glisson-cli: " << line << std::endl;
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace glisson;
+  using namespace glisson::cli;
+  // Numbers are written the same way in every country.
+  std::setlocale(LC_ALL, "C");
+  std::locale::global(std::locale::classic());
+
+  CLI::App app{"Glisson: patient-specific biomechanics for image-guided liver surgery.\nResearch use only, not for clinical use."};
+  app.set_version_flag("--version", std::string("glisson-cli ") + version());
+  app.require_subcommand(1);
+  app.fallthrough();
+  Context context;
+  app.add_flag("--json", context.json, "print one JSON object to stdout and nothing else there");
+  app.add_flag("--quiet,-q", context.quiet, "no progress, no notes");
+  app.add_flag("--verbose,-v", context.verbose, "say more on stderr");
+  app.add_option("--threads", context.threads, "threads to use, 0 = one per core")->check(CLI::Range(0, 1024));
+  CLI::Option* seed = app.add_option("--seed", context.seed, "seed of everything random");
+  app.add_option("--output,-o", context.output, "folder or file to write to");
+  app.add_option("--render-backend", context.renderBackend, "how pictures are drawn")
+      ->check(CLI::IsMember({"auto", "egl", "x11"}));
+  app.set_config("--config", "", "read options from an INI or TOML file");
+
+  addPhantom(app, context);
+  addScan(app, context);
+  addConvert(app, context);
+  addMeasure(app, context);
+  addPlan(app, context);
+  addRun(app, context);
+  addRender(app, context);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::Error& e) {
+    app.exit(e);
+    return Usage;
+  }
+  context.seedGiven = seed->count() > 0;
+
+  try {
+    setThreadCount(context.threads);
+    return context.action();
+  } catch (const BadInput& e) {
+    return report(BadInputCode, e.what());
+  } catch (const SolverFailed& e) {
+    return report(NotConverged, e.what());
+  } catch (const Cancelled&) {
+    return report(CancelledCode, "cancelled");
+  } catch (const std::bad_alloc&) {
+    return report(Failed, "out of memory; use larger cells (cell_mm) or fewer frames");
+  } catch (const std::exception& e) {
+    return report(Failed, e.what());
+  }
+}

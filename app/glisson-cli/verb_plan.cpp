@@ -1,0 +1,28 @@
+#include <sstream>
+
+#include "pipeline/plan.h"
+#include "verbs.h"
+
+namespace glisson::cli {
+
+void addPlan(CLI::App& app, Context& context) {
+  CLI::App* verb = app.add_subcommand("plan", "what a scene needs and what it leaves out, with reasons and predicted size");
+  auto scene = std::make_shared<std::filesystem::path>();
+  verb->add_option("scene", *scene, "scene.json")->required();
+  verb->callback([&context, scene] {
+    context.action = [&context, scene] {
+      Json j;
+      j["plan"] = Json::array();
+      std::ostringstream text;
+      for (const pipeline::PlanStep& s : pipeline::plan(pipeline::readScene(*scene))) {
+        j["plan"].push_back(
+            {{"step", s.step}, {"needed", s.needed}, {"why", s.why}, {"seconds", s.seconds}, {"peak_MB", s.peak_MB}});
+        text << (s.needed ? "  do    " : "  leave ") << s.step << ": " << s.why << "\n";
+      }
+      context.print(j, text.str());
+      return Ok;
+    };
+  });
+}
+
+}  // namespace glisson::cli

@@ -1,0 +1,64 @@
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "base/error.h"
+#include "pipeline/run.h"
+#include "render/backend.h"
+#include "verbs.h"
+
+namespace glisson::cli {
+namespace {
+
+std::string summary(const pipeline::RunResult& r) {
+  std::ostringstream t;
+  t.precision(4);
+  const retraction::Result& p = r.primary;
+  t << "model       " << p.dofs << " degrees of freedom, " << r.model.cells << " cells, " << r.model.volume_mL
+    << " mL, " << r.model.mass_kg << " kg\n"
+    << "solver      " << p.solver.kind << ", " << p.solver.iterations << " iterations, residual " << p.solver.residual
+    << (p.solver.converged() ? "" : "  NOT CONVERGED") << "\n"
+    << "load        (" << p.load_N.transpose() << ") N, reaction (" << p.reaction_N.transpose() << ") N\n"
+    << "strain      max " << p.max_strain << ", 95 % below " << p.p95_strain << "; largest rotation "
+    << p.max_rotation_deg << " deg\n";
+  if (p.validity.empty()) t << "validity    linear theory can be trusted here\n";
+  for (const std::string& v : p.validity) t << "validity    " << v << "\n";
+  if (r.difference)
+    t << "difference  mean " << r.difference->mean_mm << " mm, 95 % below " << r.difference->p95_mm << " mm, max "
+      << r.difference->max_mm << " mm, at the retractor " << r.difference->at_retractor_mm << " mm"
+      << (r.difference->clinically_significant ? " (clinically significant)" : "") << "\n";
+  for (const std::string& w : r.warnings) t << "warning     " << w << "\n";
+  for (const auto& f : r.files) t << "written     " << f.string() << "\n";
+  return t.str();
+}
+
+}  // namespace
+
+void addRun(CLI::App& app, Context& context) {
+  CLI::App* verb = app.add_subcommand("run", "do everything that a scene needs; write results, pictures and run.json");
+  auto scenePath = std::make_shared<std::filesystem::path>();
+  auto colourBlind = std::make_shared<bool>(false);
+  verb->add_option("scene", *scenePath, "scene.json")->required();
+  verb->add_flag("--colour-blind", *colourBlind, "orange and blue instead of red and blue");
+  verb->callback([&context, scenePath, colourBlind] {
+    context.action = [&context, scenePath, colourBlind] {
+      pipeline::Scene scene = pipeline::readScene(*scenePath);
+      if (context.seedGiven) scene.setup.seed = scene.setup.model.meshfree.seed = context.seed;
+      render::setBackend(context.renderBackend);
+      pipeline::RunOptions options;
+      options.output = context.output.empty() ? scenePath->parent_path() / "glisson-run" : context.output;
+      options.palette = *colourBlind ? render::Palette::ColourBlind : render::Palette::RedBlue;
+      const pipeline::RunResult r = pipeline::run(scene, options, context.progress());
+      context.print(Json::parse(r.json), summary(r));
+      if (!r.primary.solver.converged() || (r.atlas && !r.atlas->solver.converged())) {
+        std::cerr << "glisson-cli: the solve did not converge (" << r.primary.solver.kind << ", residual "
+                  << r.primary.solver.residual << "); its result is marked and not drawn: raise \"iterations\" or use "
+                  << "solver \"auto\"" << std::endl;
+        return NotConverged;
+      }
+      return Ok;
+    };
+  });
+}
+
+}  // namespace glisson::cli

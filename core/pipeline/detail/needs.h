@@ -1,0 +1,32 @@
+#pragma once
+
+#include "pipeline/scene.h"
+
+namespace glisson::pipeline::detail {
+
+/// What a scene needs, decided once: plan() tells it, run() does it.
+struct Needs {
+  explicit Needs(const Scene& scene);
+
+  bool patient = false;      ///< DICOM or volumes, outlined
+  bool mriValues = false;    ///< intensities, not only the grid
+  bool mre = false;          ///< elastogram read, mapped, measured
+  bool vessels = false;
+  bool liverSurface = false; ///< triangle surface
+  bool map = false;          ///< a modulus map from a file
+  bool meshfree = false;
+  bool mass = false;         ///< mass matrix
+  bool damping = false;
+  bool timeSteps = false;
+  bool newton = false;       ///< non-linear kinematics
+  bool condensed = false;
+  bool compare = false;
+  bool strain = true;        ///< validity is printed with every result
+  bool cellField = false;    ///< displacement at every cell
+  bool pictures = false;
+  bool report = false;
+  bool sofa = false;
+  bool retractor = false;
+};
+
+}  // namespace glisson::pipeline::detail

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "anatomy/vessels.h"
+#include "pipeline/run.h"
+
+namespace glisson::pipeline::detail {
+
+/// Everything the overlays draw, with displacements continued around the body.
+render::RetractionScene retractionScene(const Scene& scene, const Inputs& inputs, const image::Mask& cells,
+                                        const RunResult& result, const anatomy::VesselModel& vessels);
+
+/// Writes the files of one run into a folder, each written beside and then renamed; notes what was written.
+class Writer {
+ public:
+  /// Makes the folder. Throws BadInput where it cannot.
+  Writer(std::filesystem::path folder, std::vector<std::filesystem::path>& files);
+
+  void text(const std::string& name, const std::string& content);
+  void displacementFields(const RunResult& r);
+  void vessels(const Scene& scene, const RunResult& r, const anatomy::VesselModel& vessels);
+  void stiffness(const elastography::Statistics& s);
+  void sliceOverlays(const Scene& scene, const Inputs& inputs, const RunResult& r, render::Palette palette);
+  void overlays3D(const RunResult& r, render::Palette palette);
+  void report(const Scene& scene, const RunResult& r);
+
+ private:
+  std::filesystem::path note(const std::string& name);
+
+  std::filesystem::path folder_;
+  std::vector<std::filesystem::path>& files_;
+};
+
+}  // namespace glisson::pipeline::detail

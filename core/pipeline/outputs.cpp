@@ -1,0 +1,201 @@
+#include "pipeline/detail/outputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "anatomy/surface.h"
+#include "base/error.h"
+#include "image/extend.h"
+#include "image/io.h"
+#include "report/html.h"
+
+namespace glisson::pipeline::detail {
+namespace {
+
+using report::number;
+
+/// How far the tissue around the liver follows it in the pictures; beyond, nothing moves.
+constexpr double pictureMargin_mm = 40.0;
+
+std::string text(const Eigen::Vector3d& v) { return number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()); }
+
+/// Something to warp where the scene has no image: the stiffness of the body, which is all that is known of it.
+image::ScalarVolume stiffnessAsImage(const RunResult& r) { return r.model.youngs_kPa; }
+
+std::string caption(const Scene& scene, const RunResult& r) {
+  const mechanics::SolveReport& s = r.primary.solver;
+  std::string c = r.atlas ? "MRE against atlas stiffness, same load. " : "One stiffness. ";
+  if (r.difference) {
+    c += "Difference: mean " + number(r.difference->mean_mm, 3) + " mm, largest " + number(r.difference->max_mm, 3) + " mm";
+    if (r.primary.retractorPoint_mm) c += ", at the retractor " + number(r.difference->at_retractor_mm, 3) + " mm";
+    c += ". ";
+  }
+  c += std::to_string(r.primary.dofs) + " degrees of freedom, " + s.kind + ", Poisson's ratio " +
+       number(scene.setup.poisson, 3) + ".";
+  return c;
+}
+
+}  // namespace
+
+render::RetractionScene retractionScene(const Scene& scene, const Inputs& inputs, const image::Mask& cells,
+                                        const RunResult& r, const anatomy::VesselModel& vessels) {
+  render::RetractionScene p;
+  p.mri = inputs.mri ? *inputs.mri : stiffnessAsImage(r);
+  p.liver = inputs.liver ? *inputs.liver : cells;
+  p.u_mre_mm = image::extendHarmonically(r.primary.u_mm, cells, pictureMargin_mm);
+  p.u_atlas_mm = r.atlas ? image::extendHarmonically(r.atlas->u_mm, cells, pictureMargin_mm) : p.u_mre_mm;
+  p.liverSurface = anatomy::liverSurface(cells);
+  p.vesselSurface = vessels.surface;
+  p.retractorPoint_lps_mm = r.primary.retractorPoint_mm;
+  for (const retraction::LoadSpec& load : scene.setup.loads)
+    if (const auto* bar = std::get_if<retraction::Retractor>(&load)) {
+      p.retractorAxis = bar->axis;
+      p.retractorDirection = bar->direction;
+      p.retractorDiameter_mm = bar->diameter_mm;
+      p.retractorLength_mm = bar->length_mm;
+    }
+  p.clinicallySignificant_mm = defaults::clinicallySignificant.mm();
+  p.caption = caption(scene, r);
+  p.valid = r.primary.validity.empty() && (!r.atlas || r.atlas->validity.empty());
+  return p;
+}
+
+Writer::Writer(std::filesystem::path folder, std::vector<std::filesystem::path>& files)
+    : folder_(std::move(folder)), files_(files) {
+  std::error_code ec;
+  std::filesystem::create_directories(folder_, ec);
+  if (ec || !std::filesystem::is_directory(folder_))
+    throw BadInput("cannot make the output folder '" + folder_.filename().string() + "': " + ec.message() +
+                   "; choose another with --output");
+}
+
+std::filesystem::path Writer::note(const std::string& name) {
+  const std::filesystem::path file = folder_ / name;
+  if (std::find(files_.begin(), files_.end(), file) == files_.end()) files_.push_back(file);
+  return file;
+}
+
+void Writer::text(const std::string& name, const std::string& content) {
+  const std::filesystem::path file = note(name);
+  const std::filesystem::path beside = file.string() + ".part";
+  {
+    std::ofstream out(beside, std::ios::binary);
+    out << content;
+    out.flush();
+    if (!out) throw BadInput("cannot write '" + name + "'; is the disk full or the folder read-only?");
+  }
+  std::error_code ec;
+  std::filesystem::rename(beside, file, ec);
+  if (ec) throw BadInput("cannot write '" + name + "': " + ec.message());
+}
+
+void Writer::displacementFields(const RunResult& r) {
+  image::writeVolume(note(r.atlas ? "displacement-mre.nrrd" : "displacement.nrrd"), r.primary.u_mm);
+  if (r.atlas) image::writeVolume(note("displacement-atlas.nrrd"), r.atlas->u_mm);
+}
+
+void Writer::vessels(const Scene&, const RunResult& r, const anatomy::VesselModel& vessels) {
+  report::Csv csv({"landmark", "x_mm", "y_mm", "z_mm", "radius_mm", "ux_mm", "uy_mm", "uz_mm", "difference_mm"});
+  const auto u = retraction::displacementAt(r.model, r.primary, vessels.centreline_lps_mm);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const Eigen::Vector3d& p = vessels.centreline_lps_mm[i];
+    const double d = r.difference && i < r.difference->vessel_mm.size() ? r.difference->vessel_mm[i] : std::nan("");
+    auto cell = [](double v) { return std::isfinite(v) ? number(v, 7) : std::string(); };
+    csv.row({std::to_string(i), cell(p.x()), cell(p.y()), cell(p.z()), cell(vessels.radius_mm[i]), cell(u[i].x()),
+             cell(u[i].y()), cell(u[i].z()), cell(d)});
+  }
+  text("vessels.csv", csv.text());
+}
+
+void Writer::stiffness(const elastography::Statistics& s) {
+  report::Csv csv({"slice", "quantity", "n", "n_before_mask", "area_mm2", "mean_kPa", "median_kPa", "sd_kPa", "min_kPa", "max_kPa"});
+  const std::string quantity = s.quantity == StiffnessQuantity::Shear ? "shear" : "youngs";
+  auto row = [&](const std::string& name, const elastography::SliceStatistics& v) {
+    csv.row({name, quantity, std::to_string(v.n), std::to_string(v.n_before_mask), number(v.area_mm2, 7), number(v.mean_kPa, 7),
+             number(v.median_kPa, 7), number(v.sd_kPa, 7), number(v.min_kPa, 7), number(v.max_kPa, 7)});
+  };
+  for (const auto& slice : s.slices) row(std::to_string(slice.slice), slice);
+  row("pooled", s.pooled);
+  text("stiffness.csv", csv.text());
+}
+
+void Writer::sliceOverlays(const Scene&, const Inputs&, const RunResult& r, render::Palette palette) {
+  if (!r.primary.drawable || (r.atlas && !r.atlas->drawable)) return;
+  render::SliceOverlayOptions o;
+  o.palette = palette;
+  o.zoomCentre_lps_mm = r.picture->retractorPoint_lps_mm;
+  o.slice = render::sliceOfLargestDifference(*r.picture);
+  render::writePng(note("overlay-largest-difference.png"), render::sliceOverlay(*r.picture, o));
+  if (r.picture->retractorPoint_lps_mm) {
+    const Eigen::Vector3d index = r.picture->mri.grid.lpsToIndex(*r.picture->retractorPoint_lps_mm);
+    o.slice = std::clamp(static_cast<int>(std::lround(index.z())), 0, r.picture->mri.grid.size.z() - 1);
+    render::writePng(note("overlay-retractor.png"), render::sliceOverlay(*r.picture, o));
+  }
+  render::writePng(note("difference-map.png"), render::differenceMap(*r.picture, o));
+}
+
+void Writer::overlays3D(const RunResult& r, render::Palette palette) {
+  if (!r.primary.drawable || (r.atlas && !r.atlas->drawable)) return;
+  render::SceneOptions3D o;
+  o.palette = palette;
+  const std::pair<const char*, render::View3D> views[] = {{"overlay-3d-oblique.png", render::View3D::Oblique},
+                                                          {"overlay-3d-anterior.png", render::View3D::Anterior}};
+  for (const auto& [name, view] : views) {
+    o.view = view;
+    render::writePng(note(name), render::overlay3D(*r.picture, o));
+  }
+}
+
+void Writer::report(const Scene& scene, const RunResult& r) {
+  report::HtmlReport page("Liver retraction, measured against textbook stiffness");
+  page.heading("Result");
+  std::vector<std::pair<std::string, std::string>> rows;
+  if (r.difference) {
+    const comparison::Difference& d = *r.difference;
+    rows.emplace_back("Difference over the liver, mean", number(d.mean_mm) + " mm");
+    rows.emplace_back("95 % of the liver below", number(d.p95_mm) + " mm");
+    rows.emplace_back("Largest", number(d.max_mm) + " mm");
+    rows.emplace_back("At the retractor", number(d.at_retractor_mm) + " mm" +
+                                              (d.clinically_significant ? " (5 mm or more: clinically significant)" : ""));
+    if (!d.vessel_mm.empty()) {
+      rows.emplace_back("Vessel landmarks, mean", number(d.vesselMean_mm) + " mm");
+      rows.emplace_back("Vessel landmarks 5 mm or more apart", number(100 * d.vesselFractionBeyond, 3) + " %");
+    }
+  }
+  rows.emplace_back("Largest displacement", number(r.primary.max_displacement_mm) + " mm");
+  if (r.stiffness) {
+    const auto& s = r.stiffness->pooled;
+    rows.emplace_back(r.stiffness->quantity == StiffnessQuantity::Shear ? "Shear modulus in the ROI" : "Young's modulus in the ROI",
+                      number(s.mean_kPa) + " ± " + number(s.sd_kPa) + " kPa (" + std::to_string(s.n_before_mask) +
+                          " voxels, " + std::to_string(s.n) + " after the confidence mask)");
+  }
+  page.table(rows);
+  page.heading("Can it be trusted?");
+  if (r.primary.validity.empty()) page.paragraph("Strains and rotations are small enough for linear theory.");
+  page.list(r.primary.validity);
+  page.table({{"Solver", r.primary.solver.kind + ", relative residual " + number(r.primary.solver.residual, 2)},
+              {"Strain, largest / 95 % below", number(r.primary.max_strain, 3) + " / " + number(r.primary.p95_strain, 3)},
+              {"Largest rotation", number(r.primary.max_rotation_deg, 3) + " degrees"},
+              {"Load", text(r.primary.load_N) + " N"},
+              {"Reaction", text(r.primary.reaction_N) + " N"}});
+  page.list(r.warnings);
+  page.heading("Pictures");
+  for (const auto& f : r.files) {
+    if (f.extension() != ".png") continue;
+    const std::string name = f.filename().string();
+    page.picture(f, name == "difference-map.png" ? "Distance between the two predictions, mm"
+                    : name.rfind("overlay-3d", 0) == 0
+                        ? "Vessels where the measured stiffness puts them (blue) and where the textbook stiffness does (red)"
+                        : "The image moved by each prediction: measured stiffness in blue, textbook in red, purple where they agree");
+  }
+  page.heading("Method");
+  page.table({{"Volume", number(r.model.volume_mL) + " mL"},
+              {"Mass", number(r.model.mass_kg) + " kg"},
+              {"Degrees of freedom", std::to_string(r.primary.dofs)},
+              {"Poisson's ratio", number(scene.setup.poisson)},
+              {"Density", number(scene.setup.density.kgPerM3()) + " kg/m³"}});
+  text("report.html", page.html());
+}
+
+}  // namespace glisson::pipeline::detail

@@ -1,0 +1,113 @@
+#include "pipeline/plan.h"
+
+#include <cmath>
+
+#include "image/io.h"
+#include "pipeline/detail/needs.h"
+
+namespace glisson::pipeline {
+
+namespace detail {
+
+Needs::Needs(const Scene& s) {
+  patient = s.geometry.kind == GeometrySpec::Kind::Patient;
+  mre = s.material.kind == MaterialSpec::Kind::Mre;
+  map = s.material.kind == MaterialSpec::Kind::Map;
+  pictures = s.outputs.overlay || s.outputs.report;
+  report = s.outputs.report;
+  sofa = s.outputs.sofa;
+  // Vessels are found in the contrast-enhanced image; pictures show them where there is such an image.
+  vessels = patient && (s.outputs.vessels || pictures || sofa);
+  mriValues = (patient && vessels) || pictures;
+  liverSurface = pictures;
+  meshfree = s.setup.model.kind == retraction::ModelKind::Meshfree;
+  timeSteps = s.setup.analysis.dynamic;
+  mass = timeSteps;
+  damping = timeSteps && (s.setup.analysis.rayleigh[0] > 0 || s.setup.analysis.rayleigh[1] > 0);
+  newton = s.setup.kinematics != retraction::Kinematics::Linear;
+  condensed = s.setup.condensed;
+  compare = s.compare.has_value();
+  cellField = pictures || compare || s.outputs.displacementField;
+  for (const retraction::LoadSpec& load : s.setup.loads)
+    retractor = retractor || std::holds_alternative<retraction::Retractor>(load);
+}
+
+}  // namespace detail
+
+namespace {
+
+/// Number of cells, exactly for a box, from the mask for a mask, for an ordinary liver of 1.5 L otherwise.
+double predictCells(const Scene& s) {
+  const GeometrySpec& g = s.geometry;
+  if (g.kind == GeometrySpec::Kind::Box) return g.size_mm.cwiseQuotient(g.cell_mm).array().round().prod();
+  if (g.kind == GeometrySpec::Kind::Mask) {
+    const image::Mask mask = image::readMask(g.file, g.label);
+    double filled = 0;
+    for (const std::uint8_t v : mask.values) filled += v;
+    if (g.cell_mm.x() > 0) filled *= mask.grid.voxelVolume_mm3() / g.cell_mm.prod();
+    return filled;
+  }
+  constexpr double ordinaryLiver_mm3 = 1.5e6;
+  const double cell_mm3 = g.cell_mm.x() > 0 ? g.cell_mm.prod() : std::pow(2.0 * defaults::mriVoxel.mm(), 3);
+  return ordinaryLiver_mm3 / cell_mm3;
+}
+
+}  // namespace
+
+std::vector<PlanStep> plan(const Scene& s) {
+  const detail::Needs n(s);
+  const double cells = predictCells(s);
+  const double dofs = n.meshfree ? s.setup.model.meshfree.frames * (s.setup.model.meshfree.order == 2 ? 30.0 : 12.0)
+                                 : 3.3 * cells;
+  // Bytes per degree of freedom of the multigrid solve (vectors, hierarchy), and seconds per degree of freedom, one solve.
+  const double solve_MB = 250e-6 * 3.3 * cells;
+  const double solve_s = 4e-6 * 3.3 * cells;
+  std::vector<PlanStep> steps;
+  auto add = [&](std::string step, bool needed, std::string why, double seconds = 0.0, double peak_MB = 0.0) {
+    steps.push_back({std::move(step), needed, std::move(why), needed ? seconds : 0.0, needed ? peak_MB : 0.0});
+  };
+
+  add("read-mri", n.patient || n.mriValues,
+      n.patient ? (n.mriValues ? "the contours lie on it; vessels and overlays show it" : "the contours lie on its grid")
+                : (n.mriValues ? "the overlays need something to warp" : "the body does not come from an image, and no picture is asked for"),
+      n.patient ? 1.0 : 0.1, 100);
+  add("read-roi", n.patient || s.geometry.kind == GeometrySpec::Kind::Mask,
+      s.geometry.kind == GeometrySpec::Kind::Box ? "the body is a box" : "it outlines the body", 0.1, 20);
+  add("read-mre", n.mre, n.mre ? "the stiffness comes from it" : "the material is not \"mre\"", 0.5, 20);
+  add("measure-stiffness", n.mre, n.mre ? "statistics of the region of interest go into the record" : "no elastogram is used", 0.05);
+  add("read-map", n.map, n.map ? "the modulus of each voxel comes from it" : "the material is not a map", 0.1);
+  add("vessels", n.vessels,
+      n.vessels ? "they are the landmarks that are compared"
+      : n.patient ? "neither vessels nor pictures are asked for" : "there is no contrast-enhanced image to find them in",
+      6.0, 300);
+  add("liver-surface", n.liverSurface, n.liverSurface ? "the 3-D picture shows it" : "no picture is asked for", 1.0, 50);
+  add("mesh", true, "about " + std::to_string(static_cast<long long>(cells)) + " cells, " +
+                        std::to_string(static_cast<long long>(dofs)) + " degrees of freedom", 0.1, 40e-6 * cells);
+  add("assembled-stiffness-matrix", n.sofa, n.sofa ? "it is exported beside the SOFA node"
+                                                   : "one modulus per voxel is enough: K is applied, not stored", 1.0, 2000e-6 * cells);
+  add("mesh-free-frames", n.meshfree, n.meshfree ? "the model is mesh-free" : "the model is voxel finite elements", 2.0, 100);
+  add("mass-matrix", n.mass || n.sofa, n.mass ? "the analysis is dynamic" : n.sofa ? "it is exported beside the SOFA node"
+                                              : "the analysis is static: inertia plays no part", 0.1);
+  add("damping", n.damping, n.damping ? "Rayleigh damping is given" : n.timeSteps ? "both Rayleigh coefficients are 0" : "the analysis is static");
+  add("solve", !n.timeSteps, n.timeSteps ? "the time steps lead to the answer" : "K u = f once", solve_s, solve_MB);
+  add("time-steps", n.timeSteps, n.timeSteps ? "implicit Euler to " + std::to_string(s.setup.analysis.end_s) + " s"
+                                             : "only the steady state is asked for", solve_s * s.setup.analysis.end_s * 1e3 / s.setup.analysis.h_ms, solve_MB);
+  add("large-deformation", n.newton, n.newton ? "the kinematics are not linear" : "the kinematics are linear", 10 * solve_s, 2 * solve_MB);
+  add("condensed-response", n.condensed, n.condensed ? "the solver is \"condensed\"" : "one load case: a response matrix would not pay");
+  add("atlas-solve", n.compare,
+      n.compare ? "the same load on the textbook stiffness; left out where the answer follows from the first"
+                : "no comparison is asked for", solve_s, solve_MB);
+  add("difference", n.compare, n.compare ? "how far apart the two place the same tissue" : "no comparison is asked for", 0.01);
+  add("strain", n.strain, "every result says whether linear theory can be trusted", 1e-7 * cells);
+  add("cell-displacements", n.cellField, n.cellField ? "overlays, comparison or the field itself need them"
+                                                     : "only probes and sums are asked for", 1e-8 * cells);
+  add("write-displacement-field", s.outputs.displacementField,
+      s.outputs.displacementField ? "asked for" : "not asked for", 0.1);
+  add("slice-overlay", n.pictures, n.pictures ? "asked for" : "no picture is asked for", 1.0, 50);
+  add("3d-overlay", n.pictures, n.pictures ? "asked for" : "no picture is asked for: no OpenGL is started", 4.0, 200);
+  add("report", n.report, n.report ? "asked for" : "not asked for", 0.2);
+  add("sofa", n.sofa, n.sofa ? "asked for" : "not asked for", 1.0);
+  return steps;
+}
+
+}  // namespace glisson::pipeline

@@ -1,0 +1,165 @@
+#include "pipeline/run.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "anatomy/surface.h"
+#include "anatomy/vessels.h"
+#include "base/error.h"
+#include "elastography/statistics.h"
+#include "image/io.h"
+#include "pipeline/detail/build_model.h"
+#include "pipeline/detail/needs.h"
+#include "pipeline/detail/outputs.h"
+#include "pipeline/detail/record.h"
+
+namespace glisson::pipeline {
+namespace {
+
+double peak_MB() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// Runs steps of the plan by name and notes what each took.
+class Steps {
+ public:
+  Steps(std::vector<PlanStep>& plan, const Progress& progress) : plan_(plan), progress_(progress) {
+    for (PlanStep& s : plan_) {
+      expected_ += s.needed ? s.seconds + 0.01 : 0.0;
+      s.peak_MB = 0.0;
+    }
+  }
+  void run(const std::string& name, const std::function<void(const Progress&)>& work) {
+    for (PlanStep& s : plan_) {
+      if (s.step != name) continue;
+      if (!s.needed) return;
+      const double share = (s.seconds + 0.01) / expected_;
+      const Progress part = progress_.part(done_, std::min(1.0, done_ + share));
+      part.report(0.0, name);
+      const auto start = std::chrono::steady_clock::now();
+      work(part);
+      s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      s.peak_MB = peak_MB();
+      done_ = std::min(1.0, done_ + share);
+      return;
+    }
+    throw BadArgument("the plan has no step \"" + name + "\"");
+  }
+  void leaveOut(const std::string& name, const std::string& why) {
+    for (PlanStep& s : plan_)
+      if (s.step == name) {
+        s.needed = false;
+        s.why = why;
+        s.seconds = 0.0;
+      }
+  }
+
+ private:
+  std::vector<PlanStep>& plan_;
+  const Progress& progress_;
+  double expected_ = 0.0;
+  double done_ = 0.0;
+};
+
+/// The retraction of a body whose every modulus is 1/factor of the other's, nothing but clamps holding it: u ∝ 1/E.
+/// Only for loads that do not depend on the stiffness and supports that are fixed at zero.
+bool followsByScaling(const Scene& scene, const retraction::Model& model, const retraction::Model& atlas, double& factor) {
+  if (scene.setup.kinematics != retraction::Kinematics::Linear || scene.setup.analysis.dynamic) return false;
+  for (const retraction::SupportSpec& s : scene.setup.supports)
+    if (s.kind == retraction::SupportSpec::Kind::Spring || s.displacement_mm != Eigen::Vector3d::Zero()) return false;
+  factor = 0.0;
+  for (std::size_t i = 0; i < model.youngs_kPa.values.size(); ++i) {
+    if (model.youngs_kPa.values[i] == 0.0f) continue;
+    const double f = static_cast<double>(model.youngs_kPa.values[i]) / static_cast<double>(atlas.youngs_kPa.values[i]);
+    if (factor == 0.0) factor = f;
+    if (f != factor) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+RunResult run(const Scene& scene, const RunOptions& options, const Progress& progress, const Inputs* given) {
+  if (scene.setup.loads.empty() && scene.setup.supports.empty())
+    throw BadInput("the scene has neither supports nor loads; give at least one support and one load");
+  const detail::Needs needs(scene);
+  RunResult r;
+  r.plan = plan(scene);
+  Steps steps(r.plan, progress);
+
+  Inputs loaded;
+  if (!given && scene.geometry.kind != GeometrySpec::Kind::Box)
+    loaded = loadInputs(scene, progress.part(0.0, 0.05));
+  else if (!given && needs.map)
+    loaded = loadInputs(scene, progress.part(0.0, 0.05));
+  const Inputs& inputs = given ? *given : loaded;
+  r.warnings = inputs.warnings;
+
+  steps.run("measure-stiffness", [&](const Progress&) {
+    if (!inputs.stiffness || !inputs.liver) throw BadArgument("run: no elastogram or no region of interest was loaded");
+    r.stiffness = inputs.contours ? elastography::measure(*inputs.stiffness, *inputs.contours)
+                                  : elastography::measure(*inputs.stiffness, *inputs.liver);
+    for (const std::string& w : r.stiffness->warnings) r.warnings.push_back(w);
+  });
+
+  image::Mask cells;
+  retraction::Model atlasModel;
+  steps.run("mesh", [&](const Progress&) {
+    cells = detail::dropLooseIslands(scene, detail::bodyCells(scene, inputs), r.warnings);
+    r.model = detail::buildModel(scene, inputs, cells);
+    if (scene.compare) atlasModel = detail::buildAtlasModel(scene, cells);
+  });
+
+  steps.run(needs.timeSteps ? "time-steps" : "solve", [&](const Progress& p) {
+    r.primary = retraction::simulate(r.model, scene.setup, scene.outputs.probes_mm, p);
+  });
+  if (scene.compare) {
+    double factor = 1.0;
+    if (detail::sameStiffness(r.model, atlasModel)) {
+      r.atlas = r.primary;
+      steps.leaveOut("atlas-solve", "the material is the atlas itself: the second answer is the first");
+    } else if (followsByScaling(scene, r.model, atlasModel, factor)) {
+      r.atlas = retraction::scaled(r.model, r.primary, factor);
+      steps.leaveOut("atlas-solve", "one modulus throughout and clamps only: displacement is proportional to 1/E");
+    }
+    steps.run("atlas-solve", [&](const Progress& p) {
+      r.atlas = retraction::simulate(atlasModel, scene.setup, scene.outputs.probes_mm, p);
+    });
+  }
+
+  anatomy::VesselModel vessels;
+  steps.run("vessels", [&](const Progress& p) { vessels = anatomy::findVessels(*inputs.mri, *inputs.liver, p); });
+  steps.run("difference", [&](const Progress&) {
+    r.difference = comparison::compare(r.model, r.primary, *r.atlas, vessels.centreline_lps_mm);
+  });
+  if (needs.pictures) {
+    steps.run("liver-surface", [&](const Progress&) {
+      r.picture = detail::retractionScene(scene, inputs, cells, r, vessels);
+    });
+  }
+  if (!options.output.empty()) {
+    detail::Writer writer(options.output, r.files);
+    steps.run("write-displacement-field", [&](const Progress&) { writer.displacementFields(r); });
+    if (scene.outputs.vessels && needs.vessels) writer.vessels(scene, r, vessels);
+    if (r.stiffness) writer.stiffness(*r.stiffness);
+    steps.run("slice-overlay", [&](const Progress&) { writer.sliceOverlays(scene, inputs, r, options.palette); });
+    steps.run("3d-overlay", [&](const Progress&) { writer.overlays3D(r, options.palette); });
+    steps.run("report", [&](const Progress&) { writer.report(scene, r); });
+    r.files.insert(r.files.begin(), options.output / "run.json");
+    r.json = detail::runRecord(scene, r);
+    writer.text("run.json", r.json + "\n");
+    writer.text("scene.json", toJson(scene));
+  } else {
+    r.json = detail::runRecord(scene, r);
+  }
+  progress.report(1.0, "done");
+  return r;
+}
+
+}  // namespace glisson::pipeline

@@ -1,0 +1,205 @@
+#include <nlohmann/json.hpp>
+
+#include "pipeline/scene.h"
+
+namespace glisson::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json toJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Relative to the scene's folder where the file lies below it, so that a case can be moved.
+std::string pathText(const std::filesystem::path& p, const std::filesystem::path& folder) {
+  std::error_code ec;
+  const std::filesystem::path relative = std::filesystem::relative(p, folder, ec);
+  if (!ec && !relative.empty() && *relative.begin() != "..") return relative.generic_string();
+  return p.generic_string();
+}
+
+Json toJson(const GeometrySpec& g, const std::filesystem::path& folder) {
+  Json j;
+  switch (g.kind) {
+    case GeometrySpec::Kind::Box:
+      j["kind"] = "box";
+      j["size_mm"] = toJson(g.size_mm);
+      break;
+    case GeometrySpec::Kind::Mask:
+      j["kind"] = "mask";
+      j["file"] = pathText(g.file, folder);
+      if (g.label != 0) j["label"] = g.label;
+      if (!g.background.empty()) j["mri"] = pathText(g.background, folder);
+      break;
+    case GeometrySpec::Kind::Patient:
+      j["kind"] = "patient";
+      j["mri"] = pathText(g.mri, folder);
+      if (!g.mre.empty()) j["mre"] = pathText(g.mre, folder);
+      j["roi"] = pathText(g.roi, folder);
+      if (!g.roiName.empty()) j["roi_name"] = g.roiName;
+      if (g.label != 0) j["label"] = g.label;
+      break;
+  }
+  if (g.cell_mm.x() > 0) j["cell_mm"] = toJson(g.cell_mm);
+  return j;
+}
+
+Json toJson(const MaterialSpec& m, const retraction::Setup& setup, const std::filesystem::path& folder) {
+  Json j;
+  const bool youngs = m.quantity == StiffnessQuantity::Youngs;
+  switch (m.kind) {
+    case MaterialSpec::Kind::Uniform:
+      j[youngs ? "youngs_kPa" : "shear_kPa"] = m.value_kPa;
+      break;
+    case MaterialSpec::Kind::Map:
+      j["map"] = pathText(m.map, folder);
+      j["quantity"] = youngs ? "youngs" : "shear";
+      j["unit"] = m.unit;
+      break;
+    case MaterialSpec::Kind::Mre:
+      j["source"] = "mre";
+      break;
+    case MaterialSpec::Kind::Atlas:
+      j["source"] = "atlas";
+      break;
+  }
+  j["poisson"] = setup.poisson;
+  j["density_kg_m3"] = setup.density.kgPerM3();
+  return j;
+}
+
+struct RegionToJson {
+  const std::filesystem::path& folder;
+  Json operator()(const retraction::FaceRegion& r) const { return {{"face", r.face}}; }
+  Json operator()(const retraction::SurfaceRegion& r) const { return {{"surface", r.surface}}; }
+  Json operator()(const retraction::BoxRegion& r) const {
+    return {{"box_mm", Json::array({toJson(r.low_mm), toJson(r.high_mm)})}};
+  }
+  Json operator()(const retraction::PlaneRegion& r) const {
+    return {{"plane",
+             {{"point_mm", toJson(r.point_mm)}, {"normal", toJson(r.normal)}, {"tolerance_mm", r.tolerance_mm}}}};
+  }
+  Json operator()(const retraction::MaskRegion& r) const {
+    Json j = {{"mask", pathText(r.file, folder)}};
+    if (r.label != 0) j["label"] = r.label;
+    return j;
+  }
+};
+
+Json toJson(const retraction::SupportSpec& s, const std::filesystem::path& folder) {
+  Json j;
+  j["region"] = std::visit(RegionToJson{folder}, s.region);
+  if (s.kind == retraction::SupportSpec::Kind::Spring) {
+    j["kind"] = "spring";
+    j["stiffness_kPa_per_mm"] = s.stiffness_kPa_per_mm;
+    j["direction"] = s.normalOnly ? "normal" : "isotropic";
+    return j;
+  }
+  j["kind"] = "fixed";
+  Json axes = Json::array();
+  for (std::size_t a = 0; a < 3; ++a)
+    if (s.axes[a]) axes.push_back(std::string(1, static_cast<char>('x' + a)));
+  j["axes"] = axes;
+  j["displacement_mm"] = toJson(s.displacement_mm);
+  return j;
+}
+
+struct LoadToJson {
+  const std::filesystem::path& folder;
+  Json operator()(const retraction::BodyForce& l) const {
+    return {{"kind", "body_force"}, {"N_per_m3", toJson(l.N_per_m3)}};
+  }
+  Json operator()(const retraction::Traction& l) const {
+    return {{"kind", "traction"}, {"region", std::visit(RegionToJson{folder}, l.region)}, {"kPa", toJson(l.kPa)}};
+  }
+  Json operator()(const retraction::Pressure& l) const {
+    return {{"kind", "pressure"}, {"region", std::visit(RegionToJson{folder}, l.region)}, {"kPa", l.kPa}};
+  }
+  Json operator()(const retraction::Retractor& l) const {
+    Json j = {{"kind", "retractor"}, {"diameter_mm", l.diameter_mm}, {"length_mm", l.length_mm}, {"spread_mm", l.spread_mm}};
+    j["at"] = l.at_mm ? toJson(*l.at_mm) : Json("inferior-right-lobe");
+    j["force"] = l.force_N ? Json(*l.force_N) : Json("liver-weight");
+    j["direction"] = toJson(l.direction);
+    j["axis"] = toJson(l.axis);
+    return j;
+  }
+};
+
+Json toJson(const retraction::ModelSpec& m) {
+  if (m.kind == retraction::ModelKind::Meshfree)
+    return {{"kind", "meshfree"},
+            {"frames", m.meshfree.frames},
+            {"kernel", m.meshfree.kernel == mechanics::Kernel::Voronoi ? "voronoi" : "wendland"},
+            {"order", m.meshfree.order}};
+  if (m.kind == retraction::ModelKind::FemTet) return {{"kind", "fem-tet"}, {"element", m.quadraticTets ? "T10" : "T4"}};
+  const char* element = m.element == mechanics::HexElement::H8     ? "H8"
+                        : m.element == mechanics::HexElement::BBar ? "H8-Bbar"
+                                                                   : "H8-incompatible";
+  return {{"kind", "fem-hex"}, {"element", element}};
+}
+
+Json toJson(const retraction::AnalysisSpec& a) {
+  if (!a.dynamic) return {{"kind", "static"}};
+  return {{"kind", "dynamic"},
+          {"h_ms", a.h_ms},
+          {"end_s", a.end_s},
+          {"rayleigh", {a.rayleigh[0], a.rayleigh[1]}},
+          {"stop_when_steady", a.stopWhenSteady}};
+}
+
+Json solverToJson(const retraction::Setup& s) {
+  using mechanics::Preconditioner;
+  using mechanics::SolverKind;
+  Json j;
+  j["kind"] = s.condensed                                    ? "condensed"
+              : s.solver.kind == SolverKind::Cg         ? "cg"
+              : s.solver.kind == SolverKind::Factorised ? "factorised"
+              : s.solver.kind == SolverKind::Multigrid  ? "multigrid"
+                                                        : "auto";
+  j["iterations"] = s.solver.iterations;
+  j["tolerance"] = s.solver.tolerance;
+  if (s.solver.kind == SolverKind::Cg)
+    j["preconditioner"] = s.solver.preconditioner == Preconditioner::None     ? "none"
+                          : s.solver.preconditioner == Preconditioner::Jacobi ? "jacobi"
+                                                                              : "block-jacobi";
+  return j;
+}
+
+}  // namespace
+
+std::string toJson(const Scene& scene) {
+  const retraction::Setup& s = scene.setup;
+  Json j;
+  j["schema"] = "glisson/scene/1";
+  j["geometry"] = toJson(scene.geometry, scene.folder);
+  j["material"] = toJson(scene.material, s, scene.folder);
+  j["supports"] = Json::array();
+  for (const auto& support : s.supports) j["supports"].push_back(toJson(support, scene.folder));
+  j["loads"] = Json::array();
+  for (const auto& load : s.loads) j["loads"].push_back(std::visit(LoadToJson{scene.folder}, load));
+  j["model"] = toJson(s.model);
+  j["kinematics"] = s.kinematics == retraction::Kinematics::Linear         ? "linear"
+                    : s.kinematics == retraction::Kinematics::Corotational ? "corotational"
+                                                                           : "hyperelastic";
+  j["analysis"] = toJson(s.analysis);
+  j["solver"] = solverToJson(s);
+  if (scene.compare)
+    j["compare"] = {{"against", "atlas"},
+                    {scene.compare->quantity == StiffnessQuantity::Shear ? "shear_kPa" : "youngs_kPa",
+                     scene.compare->value_kPa}};
+  Json outputs = Json::array();
+  if (!scene.outputs.probes_mm.empty()) {
+    Json points = Json::array();
+    for (const auto& p : scene.outputs.probes_mm) points.push_back(toJson(p));
+    outputs.push_back({{"probe", points}});
+  }
+  if (scene.outputs.displacementField) outputs.push_back("displacement-field");
+  if (scene.outputs.vessels) outputs.push_back("vessels");
+  if (scene.outputs.overlay) outputs.push_back("overlay");
+  if (scene.outputs.report) outputs.push_back("report");
+  if (scene.outputs.sofa) outputs.push_back("sofa");
+  j["outputs"] = outputs;
+  j["seed"] = s.seed;
+  return j.dump(2) + "\n";
+}
+
+}  // namespace glisson::pipeline

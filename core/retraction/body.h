@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "mechanics/loads.h"
+#include "mechanics/problem.h"
+#include "retraction/setup.h"
+#include "retraction/simulate.h"
+
+namespace glisson::retraction {
+
+/// One voxel face on the surface of the body.
+struct SurfaceFace {
+  mechanics::Face face;        ///< of the mesh, in the grid's own axes
+  std::array<int, 4> nodes{};  ///< of the mesh
+  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  ///< LPS
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();     ///< outward, LPS
+  double area_m2 = 0.0;
+  bool cavity = false;         ///< borders an enclosed cavity
+};
+
+/// The meshed body: the one place where the imaging rooms' mm, kPa and LPS become mechanics' m, Pa and grid axes.
+class Body {
+ public:
+  explicit Body(const Model& model);
+
+  const mechanics::VoxelBody& voxels() const { return voxels_; }
+  const mechanics::VoxelMesh& mesh() const { return mesh_; }
+  const std::vector<SurfaceFace>& surface() const { return surface_; }
+
+  Eigen::Vector3d nodePosition_mm(int node) const;
+  /// Continuous lattice position in metres, grid axes, of a point in mm (LPS).
+  Eigen::Vector3d toLocal_m(const Eigen::Vector3d& p_mm) const;
+  Eigen::Vector3d vectorToLocal(const Eigen::Vector3d& v_lps) const { return direction_.transpose() * v_lps; }
+  Eigen::Vector3d vectorToLps(const Eigen::Vector3d& v_local) const { return direction_ * v_local; }
+
+  /// Faces of a region. Throws BadInput naming the region where none is there.
+  std::vector<const SurfaceFace*> faces(const Region& region) const;
+  /// Nodes of a region: of its faces for surface regions, all nodes inside for boxes, planes and masks; ascending.
+  std::vector<int> nodes(const Region& region) const;
+
+  /// Words for messages: "face \"x-\"", ...
+  static std::string name(const Region& region);
+
+ private:
+  bool inside(const Region& region, const Eigen::Vector3d& p_mm) const;
+
+  mechanics::VoxelBody voxels_;
+  mechanics::VoxelMesh mesh_;
+  image::Grid grid_;
+  Eigen::Matrix3d direction_;
+  std::vector<SurfaceFace> surface_;
+};
+
+/// Faces that a retractor pushes on, with their share of the force.
+struct Contact {
+  std::vector<const SurfaceFace*> faces;
+  std::vector<double> share;  ///< adds up to 1
+  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
+};
+
+/// The bar lies against the surface at `at_mm`, across the hoist. It pushes on the connected faces under it that look
+/// against the hoist, uniformly per area seen along the hoist; with spread, the pressure falls off beyond the bar as a
+/// Gaussian. Throws BadInput ("no contact") where `at_mm` is further from such a face than the bar is thick.
+Contact findContact(const Body& body, const Retractor& retractor, const Eigen::Vector3d& at_mm);
+
+/// The scene as a mechanics problem, with what is needed to read the answer back.
+struct MechanicsScene {
+  mechanics::Problem problem;
+  std::vector<mechanics::NodalField> loads_N;  ///< one per load of the setup; their sum is problem.f_N
+  std::optional<Contact> contact;
+};
+
+/// Throws BadInput: empty regions, contradicting supports, no contact, nothing that holds the body (static).
+MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& setup);
+
+}  // namespace glisson::retraction

@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""Who may include whom. Reads every include of core/, ui/ and app/ and reports what the rules forbid.
+
+usage: check_includes.py ROOT            prints violations, exits 1 where there are any
+       check_includes.py --self-test     plants one violation of each rule and checks that each is found
+"""
+import pathlib
+import re
+import sys
+import tempfile
+
+# A room may include itself and these.
+MAY = {
+    "base": [],
+    "image": ["base"],
+    "dicom": ["base", "image"],
+    "roi": ["base", "image"],
+    "elastography": ["base", "image", "dicom", "roi"],
+    "anatomy": ["base", "image", "roi", "elastography"],
+    "mechanics": ["base"],
+    "retraction": ["base", "image", "elastography", "anatomy", "mechanics"],
+    "comparison": ["base", "image", "anatomy", "mechanics", "retraction"],
+    "render": ["base", "image", "roi", "elastography", "anatomy", "comparison"],
+    "report": ["base"],
+    "exchange": ["base", "image", "dicom", "roi", "elastography", "anatomy", "mechanics", "retraction", "comparison"],
+    "phantom": ["base", "image", "dicom", "roi", "elastography", "anatomy"],
+    "pipeline": ["base", "image", "dicom", "roi", "elastography", "anatomy", "mechanics", "retraction", "comparison",
+                 "render", "report", "exchange"],
+    "study": ["base", "image", "dicom", "roi", "elastography", "anatomy", "mechanics", "retraction", "comparison",
+              "render", "report", "exchange", "pipeline", "phantom"],
+}
+THIRD_PARTY = re.compile(r"^(vtk|itk|dcmtk/|CGAL/|Q[A-Z]|nlohmann/|tbb/|CLI/|cholmod|openssl/|libigtl)")
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
+
+
+def includes(path):
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        match = INCLUDE.match(line)
+        if match:
+            yield number, match.group(1)
+
+
+def sources(folder):
+    return sorted(p for p in folder.rglob("*") if p.suffix in (".h", ".cpp")) if folder.exists() else []
+
+
+def violations(root):
+    root = pathlib.Path(root)
+    found = []
+
+    def report(path, number, why):
+        found.append(f"{path.relative_to(root)}:{number}: {why}")
+
+    for path in sources(root / "core"):
+        parts = path.relative_to(root / "core").parts
+        room = parts[0]
+        if room not in MAY:
+            report(path, 1, f"room '{room}' has no row in the rules")
+            continue
+        internal = "detail" in parts
+        for number, name in includes(path):
+            if re.match(r"^Q[A-Z]", name):
+                report(path, number, f"Qt in core: {name}")
+            if name.startswith("gdcm") or "GDCM" in name:
+                report(path, number, f"GDCM is never used: {name}")
+            if path.suffix == ".h" and not internal and THIRD_PARTY.match(name):
+                report(path, number, f"third-party header in a public header: {name}")
+            other = name.split("/")[0]
+            if other in MAY and "/" in name and other != room:
+                if other not in MAY[room]:
+                    report(path, number, f"{room} may not include {other}: {name}")
+                elif "/detail/" in name:
+                    report(path, number, f"{name} is internal to {other}")
+    for path in sources(root / "ui"):
+        part = path.relative_to(root / "ui").parts[0]
+        for number, name in includes(path):
+            if name.startswith("vtk") and part != "views":
+                report(path, number, f"VTK outside ui/views: {name}")
+            if part in ("tools", "commands") and re.match(r"^Q[A-Z]", name):
+                report(path, number, f"Qt in ui/{part}: {name}")
+            if "/detail/" in name:
+                report(path, number, f"{name} is internal to its room")
+    return found
+
+
+def self_test():
+    planted = {
+        "core/image/a.cpp": '#include "roi/contour_stack.h"\n',
+        "core/mechanics/a.cpp": '#include "image/grid.h"\n',
+        "core/base/a.cpp": "#include <QString>\n",
+        "core/render/a.h": "#include <vtkRenderer.h>\n",
+        "core/dicom/a.cpp": "#include <itkGDCMImageIO.h>\n",
+        "core/study/a.cpp": '#include "pipeline/detail/json_reader.h"\n',
+        "core/kitchen/a.cpp": "\n",
+        "ui/panels/a.cpp": "#include <vtkRenderer.h>\n",
+        "ui/tools/a.cpp": "#include <QWidget>\n",
+    }
+    clean = {
+        "core/roi/b.cpp": '#include "image/grid.h"\n#include <vector>\n',
+        "core/render/b.cpp": "#include <vtkRenderer.h>\n",
+        "core/pipeline/detail/b.h": "#include <nlohmann/json.hpp>\n",
+        "ui/views/b.cpp": "#include <vtkRenderer.h>\n#include <QWidget>\n",
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, text in {**planted, **clean}.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text)
+        found = violations(root)
+    missed = [p for p in planted if not any(v.startswith(p + ":") for v in found)]
+    wrong = [v for v in found if any(v.startswith(c + ":") for c in clean)]
+    for p in missed:
+        print(f"self-test: the violation planted in {p} was not found")
+    for v in wrong:
+        print(f"self-test: reported without cause: {v}")
+    return 1 if missed or wrong else 0
+
+
+def main():
+    if sys.argv[1:] == ["--self-test"]:
+        return self_test()
+    found = violations(sys.argv[1])
+    print("\n".join(found) if found else "the include rules hold")
+    return 1 if found else 0
+
+
+sys.exit(main())
