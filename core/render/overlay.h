@@ -9,20 +9,11 @@
 
 #include "anatomy/triangle_mesh.h"
 #include "image/volume.h"
+#include "render/picture.h"
 
 class vtkRenderer;  // shown by pointer only: no VTK header here
 
 namespace glisson::render {
-
-/// An RGB picture, row 0 at the top, 3 bytes a pixel.
-struct Picture {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> rgb;
-};
-
-/// Writes a PNG with its resolution (dots per inch) recorded. Throws BadInput where the file cannot be written.
-void writePng(const std::filesystem::path& file, const Picture& picture, double dpi = 300.0);
 
 /// Channel colours. RedBlue is the paper's (MRE blue, atlas red, purple where they agree); ColourBlind is orange/blue,
 /// white where they agree.
@@ -31,34 +22,41 @@ enum class Palette { RedBlue, ColourBlind };
 /// Everything that the overlays of one retraction draw. Displacements live at rest positions (see DisplacementField),
 /// on grids that cover the liver; zero outside it.
 struct RetractionScene {
-  image::ScalarVolume mri;             ///< the anatomical image at rest
-  image::Mask liver;                   ///< on the MRI grid or another
+  image::ScalarVolume mri;  ///< the anatomical image at rest
+  image::Mask liver;        ///< on the MRI grid or another
   image::DisplacementField u_mre_mm;
   image::DisplacementField u_atlas_mm;
-  anatomy::TriangleMesh liverSurface;  ///< at rest
-  anatomy::TriangleMesh vesselSurface; ///< at rest; may be empty
-  std::optional<Eigen::Vector3d> retractorPoint_lps_mm;  ///< centre of the contact at rest
-  Eigen::Vector3d retractorAxis = Eigen::Vector3d::UnitX();       ///< along the bar, LPS
-  Eigen::Vector3d retractorDirection = -Eigen::Vector3d::UnitY(); ///< of the hoist, LPS
+  anatomy::TriangleMesh liverSurface;                              ///< at rest
+  anatomy::TriangleMesh vesselSurface;                             ///< at rest; may be empty
+  std::optional<Eigen::Vector3d> retractorPoint_lps_mm;            ///< centre of the contact at rest
+  Eigen::Vector3d retractorAxis = Eigen::Vector3d::UnitX();        ///< along the bar, LPS
+  Eigen::Vector3d retractorDirection = -Eigen::Vector3d::UnitY();  ///< of the hoist, LPS
   double retractorDiameter_mm = 10.0;
   double retractorLength_mm = 80.0;
   double clinicallySignificant_mm = 5.0;
-  std::string caption;                 ///< method line under the picture; holds no patient text
-  bool valid = true;                   ///< false: a "not converged / outside validity" mark is drawn across
+  std::string caption;  ///< method line under the picture; holds no patient text
+  bool valid = true;    ///< false: a "not converged / outside validity" mark is drawn across
 };
 
 struct SliceOverlayOptions {
-  int slice = -1;            ///< k of the MRI grid; −1 = the slice with the largest MRE-atlas difference inside the liver
+  int slice = -1;  ///< k of the MRI grid; −1 = the slice with the largest MRE-atlas difference inside the liver
   Palette palette = Palette::RedBlue;
   int pixelsPerVoxel = 4;
-  double grid_mm = 10.0;     ///< spacing of the green grid
-  bool decorate = true;      ///< scale bar, legend, orientation letters, research-use line, caption
-  std::optional<Eigen::Vector3d> zoomCentre_lps_mm;  ///< draw an inset magnified around this point
+  double grid_mm = 10.0;  ///< spacing of the green grid
+  bool decorate = true;   ///< scale bar, legend, orientation letters, research-use line, caption
+  std::optional<Eigen::Vector3d> zoomCentre_lps_mm{};  ///< draw an inset magnified around this point
   double zoom_mm = 40.0;
+  std::optional<double>
+      margin_mm{};  ///< cut the picture to the liver (at rest and moved) plus this margin; unset: all of it
 };
 
 /// The paper's overlay of one slice: the MRI warped by each displacement field into its channel, MRE in blue, atlas in
-/// red, purple where they agree, a green millimetre grid. Needs no display.
+/// red, purple where they agree, a green millimetre grid, the outline of the liver and of the vessels in each channel.
+/// Shown in radiological convention (patient's right on the left, anterior up) with square millimetres, whatever the
+/// grid. Inside the warped liver a channel holds the windowed MRI; tissue around it is not simulated and is shown at
+/// rest, dimmed; what the liver has left is black. In RedBlue, red = atlas, blue = MRE, green = the grid alone; in
+/// ColourBlind the red byte is the atlas, the blue byte MRE away from the grid. Needs no display; safe from any thread.
+/// Throws BadInput where a grid is not usable, BadArgument where an option is out of range.
 Picture sliceOverlay(const RetractionScene& scene, const SliceOverlayOptions& options = {});
 
 /// Slice index with the largest difference between the two fields inside the liver.
@@ -67,12 +65,14 @@ int sliceOfLargestDifference(const RetractionScene& scene);
 struct CountedPixels {
   std::size_t redOnly = 0, blueOnly = 0, both = 0;
 };
-/// Counts pixels of an undecorated overlay whose red and blue differ by more than threshold (0..255), or agree and are not black.
+/// Counts pixels of an undecorated overlay whose red and blue differ by more than threshold (0..255), or agree and are
+/// not black (either above threshold). A pixel on the green grid counts by its red and blue like any other.
 CountedPixels countChannels(const Picture& overlay, int threshold = 24);
 
 /// MRI value at each voxel of target after the material has moved by u (u at rest positions): fixed-point inverse of
 /// x + u(x). image and u may have different grids. Where the inverse does not converge the nearest iterate is taken.
-image::ScalarVolume warp(const image::ScalarVolume& image, const image::DisplacementField& u_mm, const image::Grid& target);
+image::ScalarVolume warp(const image::ScalarVolume& image, const image::DisplacementField& u_mm,
+                         const image::Grid& target);
 
 /// Camera presets for 3-D views; directions from which the eye looks.
 enum class View3D { Anterior, Inferior, Oblique };
@@ -82,12 +82,12 @@ struct SceneOptions3D {
   View3D view = View3D::Oblique;
   int width = 1600;
   int height = 1200;
-  double t = 1.0;            ///< fraction of the displacement shown, 0 = rest
+  double t = 1.0;  ///< fraction of the displacement shown, 0 = rest
   bool decorate = true;
 };
 
-/// Fills a renderer (on screen or off) with the 3-D overlay: liver at rest (faint), vessels deformed by MRE (blue) and by
-/// atlas (red), retractor bar, millimetre grid, scale, legend, research-use line. Clears what was in it.
+/// Fills a renderer (on screen or off) with the 3-D overlay: liver at rest (faint), vessels deformed by MRE (blue) and
+/// by atlas (red), retractor bar, millimetre grid, scale, legend, research-use line. Clears what was in it.
 void populate3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options = {});
 
 /// The same scene, drawn off screen. Throws RenderUnavailable where neither EGL nor a display can be had.

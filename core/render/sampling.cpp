@@ -1,0 +1,110 @@
+#include "render/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace glisson::render {
+
+LpsToIndex::LpsToIndex(const image::Grid& grid)
+    : A(grid.spacing_mm.cwiseInverse().asDiagonal() * grid.direction.transpose()), b(-A * grid.origin_lps_mm) {}
+
+InverseMap::InverseMap(const image::DisplacementField& u_mm, bool clampOutside)
+    : u_(u_mm), toIndex_(u_mm.grid), clampOutside_(clampOutside) {}
+
+Eigen::Vector3d InverseMap::at(const Eigen::Vector3d& x_lps) const {
+  return sampleLinear(u_, toIndex_(x_lps), clampOutside_).cast<double>();
+}
+
+InverseMap::Result InverseMap::rest(const Eigen::Vector3d& y_lps) const {
+  constexpr double tolerance_mm = 1e-4;
+  constexpr int iterations = 60;
+  Eigen::Vector3d x = y_lps;
+  Result best{x, 1e300};
+  double step = 1.0;
+  for (int n = 0; n < iterations; ++n) {
+    const Eigen::Vector3d r = y_lps - x - at(x);
+    const double residual = r.norm();
+    if (residual < best.residual_mm) {
+      best = {x, residual};
+      if (residual < tolerance_mm) break;
+    } else {
+      step = std::max(0.1, 0.5 * step);
+    }
+    x += step * r;
+  }
+  return best;
+}
+
+image::ScalarVolume asScalar(const image::Mask& mask) {
+  image::ScalarVolume out(mask.grid);
+  std::transform(mask.values.begin(), mask.values.end(), out.values.begin(),
+                 [](std::uint8_t v) { return v != 0 ? 1.0F : 0.0F; });
+  return out;
+}
+
+double largestDisplacement_mm(const image::DisplacementField& u_mm) {
+  float largest2 = 0.0F;
+  for (const Eigen::Vector3f& u : u_mm.values) largest2 = std::max(largest2, u.squaredNorm());
+  return std::sqrt(static_cast<double>(largest2));
+}
+
+image::DisplacementField extended(const image::DisplacementField& u_mm, const image::ScalarVolume& mask,
+                                  double reach_mm) {
+  const image::Grid& grid = u_mm.grid;
+  image::DisplacementField out = u_mm;
+  std::vector<std::uint8_t> layer(grid.voxelCount(), 255);  // 0 known, n set in pass n, 255 not reached
+  const LpsToIndex toMask(mask.grid);
+  parallelChunks(static_cast<std::size_t>(grid.size.z()), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      for (int j = 0; j < grid.size.y(); ++j)
+        for (int i = 0; i < grid.size.x(); ++i) {
+          const std::size_t n = grid.linear(i, j, static_cast<int>(k));
+          const Eigen::Vector3d p =
+              grid.indexToLps({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+          if (!u_mm.values[n].isZero(0.0F) && sampleLinear(mask, toMask(p)) >= 0.5F)
+            layer[n] = 0;
+          else
+            out.values[n].setZero();
+        }
+  });
+
+  const int passes = std::clamp(static_cast<int>(std::ceil(reach_mm / grid.spacing_mm.minCoeff())), 1, 250);
+  const auto eachNeighbour = [&grid](int i, int j, int k, auto&& visit) {
+    for (int dk = -1; dk <= 1; ++dk)
+      for (int dj = -1; dj <= 1; ++dj)
+        for (int di = -1; di <= 1; ++di) {
+          const Eigen::Vector3i q(i + di, j + dj, k + dk);
+          if ((di != 0 || dj != 0 || dk != 0) && grid.contains(q)) visit(grid.linear(q), q);
+        }
+  };
+  std::vector<Eigen::Vector3i> front;
+  for (int k = 0; k < grid.size.z(); ++k)
+    for (int j = 0; j < grid.size.y(); ++j)
+      for (int i = 0; i < grid.size.x(); ++i)
+        if (layer[grid.linear(i, j, k)] == 0) front.emplace_back(i, j, k);
+  for (int pass = 1; pass <= passes && !front.empty(); ++pass) {
+    std::vector<Eigen::Vector3i> next;
+    for (const Eigen::Vector3i& c : front)
+      eachNeighbour(c.x(), c.y(), c.z(), [&](std::size_t n, const Eigen::Vector3i& q) {
+        if (layer[n] != 255) return;
+        layer[n] = static_cast<std::uint8_t>(pass);
+        next.push_back(q);
+      });
+    for (const Eigen::Vector3i& c : next) {
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      int count = 0;
+      eachNeighbour(c.x(), c.y(), c.z(), [&](std::size_t n, const Eigen::Vector3i&) {
+        if (layer[n] >= pass) return;
+        sum += out.values[n];
+        ++count;
+      });
+      out.values[grid.linear(c)] = sum / static_cast<float>(count);
+    }
+    front = std::move(next);
+  }
+  return out;
+}
+
+}  // namespace glisson::render

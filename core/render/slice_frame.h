@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/colour_map.h"
+#include "render/painter.h"
+#include "render/slice_plane.h"
+
+namespace glisson::render {
+
+struct LegendItem {
+  Rgb colour;
+  std::string text;
+  bool asLine = false;  ///< a stroke instead of a filled swatch
+};
+
+struct ColourBar {
+  ColourMap map;
+  double low = 0.0, high = 1.0;
+  std::string title;             ///< quantity and unit
+  std::optional<double> mark{};  ///< a value to mark by a line across the bar
+};
+
+/// What surrounds the image of a slice: everything a reader needs to take measures from it.
+struct SliceFrame {
+  SlicePlane plane;
+  std::string title{};  ///< above the image; may be empty
+  std::vector<LegendItem> legend{};
+  std::vector<std::string> notes{};      ///< lines under the legend
+  std::string caption{};                 ///< wrapped
+  std::optional<double> gridTicks_mm{};  ///< labels (cm) for grid lines at this spacing
+  std::optional<ColourBar> colourBar{};
+  const Picture* inset = nullptr;  ///< drawn to the right; square
+  std::optional<SlicePlane> insetPlane{};
+  std::string insetTitle{};
+};
+
+/// The image with its frame: orientation letters, scale bar, labels, legend, inset, caption, research-use line.
+Picture frameSlice(const Picture& image, const SliceFrame& frame);
+
+/// Font size that suits an image of this size, pixels.
+double frameFontSize(const Picture& image);
+
+/// A "not converged / outside validity" mark across the picture.
+void drawNotValid(Picture& picture);
+
+/// In-plane position of grid lines: coordinates (mm along direction) of all multiples of spacing_mm inside [low, high].
+std::vector<double> gridLines_mm(double low_mm, double high_mm, double spacing_mm);
+
+}  // namespace glisson::render

@@ -1,0 +1,300 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "render/overlay.h"
+#include "render/sampling.h"
+#include "render/slice_frame.h"
+#include "render/stroke_cover.h"
+
+namespace glisson::render {
+namespace {
+
+constexpr float dimmed = 0.45F;  // tissue outside the liver, not simulated
+
+/// Grey window from percentiles of the liver, widened for its surroundings.
+struct Window {
+  float low = 0.0F, high = 1.0F;
+  float operator()(float v) const { return std::clamp((v - low) / (high - low), 0.0F, 1.0F); }
+};
+
+Window windowOf(const image::ScalarVolume& mri, const image::ScalarVolume& liver) {
+  const LpsToIndex toLiver(liver.grid);
+  const image::Grid& grid = mri.grid;
+  std::vector<float> inside;
+  for (int k = 0; k < grid.size.z(); ++k)
+    for (int j = 0; j < grid.size.y(); ++j)
+      for (int i = 0; i < grid.size.x(); ++i)
+        if (sampleLinear(liver, toLiver(grid.indexToLps(Eigen::Vector3i(i, j, k).cast<double>()))) >= 0.5F &&
+            std::isfinite(mri.at(i, j, k)))
+          inside.push_back(mri.at(i, j, k));
+  if (inside.empty())
+    throw BadInput("the liver mask and the MRI do not overlap: check that both lie in the same frame of reference");
+  const auto percentile = [&](double p) {
+    const auto n = static_cast<std::ptrdiff_t>(p * static_cast<double>(inside.size() - 1));
+    std::nth_element(inside.begin(), inside.begin() + n, inside.end());
+    return inside[static_cast<std::size_t>(n)];
+  };
+  const float p1 = percentile(0.01), p50 = percentile(0.5), p99 = percentile(0.995);
+  // Contrast for vessels: black lies well below the darkest liver, white at its brightest percent.
+  Window w{p1 - 1.0F * (p50 - p1) - 0.5F * (p99 - p50), p99};
+  if (!(w.high - w.low > 1e-6F * std::max(1.0F, std::abs(w.high))))
+    w = {std::min(0.0F, w.high), std::max(w.high, 0.0F)};
+  if (!(w.high > w.low)) w.high = w.low + 1.0F;
+  return w;
+}
+
+/// One simulated state of the scene, ready to be looked up at any point of the moved patient.
+struct State {
+  image::DisplacementField u_mm;  ///< carried on beyond the liver
+  InverseMap inverse;
+  State(const image::DisplacementField& field, const image::ScalarVolume& liver, double reach_mm)
+      : u_mm(extended(field, liver, reach_mm)), inverse(u_mm, true) {}
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+};
+
+class Composer {
+ public:
+  explicit Composer(const RetractionScene& scene)
+      : scene_(scene),
+        liver_(asScalar(scene.liver)),
+        window_(windowOf(scene.mri, liver_)),
+        reach_mm_(std::max(largestDisplacement_mm(scene.u_mre_mm), largestDisplacement_mm(scene.u_atlas_mm)) +
+                  3.0 * liver_.grid.spacing_mm.maxCoeff()),
+        mre_(scene.u_mre_mm, liver_, reach_mm_),
+        atlas_(scene.u_atlas_mm, liver_, reach_mm_) {}
+
+  Picture draw(const SlicePlane& plane, Palette palette, double grid_mm) const {
+    const std::vector<float> atlas = channel(plane, atlas_), mre = channel(plane, mre_);
+    const std::vector<float> grid = gridCover(plane, grid_mm);
+    Picture out = blankPicture(plane.width, plane.height, {0, 0, 0});
+    const auto byte = [](float v) {
+      return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(v, 0.0F, 1.0F)));
+    };
+    for (std::size_t n = 0; n < atlas.size(); ++n) {
+      float r = atlas[n], b = mre[n], g = grid[n];
+      if (palette == Palette::ColourBlind) {  // orange (1, .55, 0) + blue (0, .45, 1): white where they agree
+        const float w = 0.75F * g;
+        g = (1.0F - w) * (0.55F * r + 0.45F * b) + w * 0.75F;
+        r *= 1.0F - w;
+        b *= 1.0F - w;
+      } else {
+        g *= 0.62F;
+      }
+      out.rgb[3 * n] = byte(r);
+      out.rgb[3 * n + 1] = byte(g);
+      out.rgb[3 * n + 2] = byte(b);
+    }
+    return out;
+  }
+
+  /// Pixel box of the liver at rest and in both moved states.
+  std::pair<Eigen::Vector2d, Eigen::Vector2d> liverBox(const SlicePlane& plane) const {
+    Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
+    const image::Grid& grid = liver_.grid;
+    for (int k = 0; k < grid.size.z(); ++k)
+      for (int j = 0; j < grid.size.y(); ++j)
+        for (int i = 0; i < grid.size.x(); ++i) {
+          if (liver_.at(i, j, k) < 0.5F) continue;
+          const Eigen::Vector3d p = grid.indexToLps(Eigen::Vector3i(i, j, k).cast<double>());
+          for (const Eigen::Vector3d& q :
+               {p, Eigen::Vector3d(p + mre_.inverse.at(p)), Eigen::Vector3d(p + atlas_.inverse.at(p))}) {
+            low = low.cwiseMin(plane.toPixel(q));
+            high = high.cwiseMax(plane.toPixel(q));
+          }
+        }
+    return {low, high};
+  }
+
+ private:
+  /// Brightness 0..1 of one channel: windowed liver, dimmed surroundings, outline of the liver and the vessels.
+  std::vector<float> channel(const SlicePlane& plane, const State& state) const {
+    const LpsToIndex toMri(scene_.mri.grid), toLiver(liver_.grid);
+    const auto width = static_cast<std::size_t>(plane.width);
+    std::vector<float> out(width * static_cast<std::size_t>(plane.height));
+    std::vector<float> phi(out.size(), -1.0F);
+    parallelChunks(static_cast<std::size_t>(plane.height), 8, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row)
+        for (std::size_t column = 0; column < width; ++column) {
+          const std::size_t n = row * width + column;
+          const Eigen::Vector3d y = plane.toLps(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
+          const InverseMap::Result rest = state.inverse.rest(y);
+          const bool found = rest.residual_mm < 0.25;
+          phi[n] = found ? sampleLinear(liver_, toLiver(rest.x_lps)) - 0.5F : -0.5F;
+          if (found && phi[n] >= 0.0F)
+            out[n] = window_(sampleLinear(scene_.mri, toMri(rest.x_lps)));
+          else if (sampleLinear(liver_, toLiver(y)) < 0.5F)
+            out[n] = dimmed * window_(sampleLinear(scene_.mri, toMri(y)));
+        }
+    });
+    outline(plane, phi, out);
+    vesselCut(plane, state, out);
+    return out;
+  }
+
+  /// A thin bright line where phi changes sign; its distance is |phi| over the gradient.
+  static void outline(const SlicePlane& plane, const std::vector<float>& phi, std::vector<float>& out) {
+    const auto at = [&](int x, int y) {
+      return phi[static_cast<std::size_t>(y) * static_cast<std::size_t>(plane.width) + static_cast<std::size_t>(x)];
+    };
+    const float half = std::max(0.7F, static_cast<float>(std::min(plane.width, plane.height)) / 900.0F);
+    for (int y = 1; y + 1 < plane.height; ++y)
+      for (int x = 1; x + 1 < plane.width; ++x) {
+        const float gx = 0.5F * (at(x + 1, y) - at(x - 1, y)), gy = 0.5F * (at(x, y + 1) - at(x, y - 1));
+        const float slope = std::sqrt(gx * gx + gy * gy);
+        if (slope < 1e-4F) continue;
+        const float cover = std::clamp(half + 0.5F - std::abs(at(x, y)) / slope, 0.0F, 1.0F);
+        float& to =
+            out[static_cast<std::size_t>(y) * static_cast<std::size_t>(plane.width) + static_cast<std::size_t>(x)];
+        to = std::max(to, 0.9F * cover);
+      }
+  }
+
+  /// Where the moved vessel walls cross the plane.
+  void vesselCut(const SlicePlane& plane, const State& state, std::vector<float>& out) const {
+    const anatomy::TriangleMesh& mesh = scene_.vesselSurface;
+    if (mesh.triangles.cols() == 0) return;
+    const Eigen::Vector3d normal = plane.normal();
+    std::vector<Eigen::Vector3d> moved(static_cast<std::size_t>(mesh.vertices_lps_mm.cols()));
+    std::vector<double> height(moved.size());
+    for (std::size_t n = 0; n < moved.size(); ++n) {
+      const Eigen::Vector3d p = mesh.vertices_lps_mm.col(static_cast<Eigen::Index>(n));
+      moved[n] = p + state.inverse.at(p);
+      height[n] = (moved[n] - plane.corner_lps).dot(normal);
+    }
+    const double width = std::max(1.2, std::min(plane.width, plane.height) / 600.0);
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+      std::vector<Point> ends;
+      for (int e = 0; e < 3; ++e) {
+        const auto a = static_cast<std::size_t>(mesh.triangles(e, t));
+        const auto b = static_cast<std::size_t>(mesh.triangles((e + 1) % 3, t));
+        if ((height[a] < 0.0) == (height[b] < 0.0)) continue;
+        ends.push_back(plane.toPixel(moved[a] + (moved[b] - moved[a]) * (height[a] / (height[a] - height[b]))));
+      }
+      if (ends.size() != 2) continue;
+      coverStroke(ends[0], ends[1], width, plane.width, plane.height, [&](int x, int y, double cover) {
+        float& to =
+            out[static_cast<std::size_t>(y) * static_cast<std::size_t>(plane.width) + static_cast<std::size_t>(x)];
+        to = std::max(to, static_cast<float>(cover));
+      });
+    }
+  }
+
+  /// Coverage of the millimetre grid, every fifth line stronger; lines lie on multiples of grid_mm in the patient
+  /// frame.
+  static std::vector<float> gridCover(const SlicePlane& plane, double grid_mm) {
+    std::vector<float> cover(static_cast<std::size_t>(plane.width) * static_cast<std::size_t>(plane.height), 0.0F);
+    const auto draw = [&](const Eigen::Vector3d& axis, bool vertical) {
+      const double start = plane.corner_lps.dot(axis);
+      const int extent = vertical ? plane.width : plane.height;
+      for (const double v : gridLines_mm(start, start + extent * plane.mmPerPixel, grid_mm)) {
+        const double at = (v - start) / plane.mmPerPixel;
+        const bool major = std::lround(v / grid_mm) % 5 == 0;
+        const double width = (major ? 1.6 : 1.0) * std::max(1.0, std::min(plane.width, plane.height) / 1000.0);
+        const Point a = vertical ? Point(at, 0.0) : Point(0.0, at);
+        const Point b = vertical ? Point(at, plane.height) : Point(plane.width, at);
+        coverStroke(a, b, width, plane.width, plane.height, [&](int x, int y, double c) {
+          float& to =
+              cover[static_cast<std::size_t>(y) * static_cast<std::size_t>(plane.width) + static_cast<std::size_t>(x)];
+          to = std::max(to, static_cast<float>((major ? 1.0 : 0.7) * c));
+        });
+      }
+    };
+    draw(plane.right, true);
+    draw(plane.down, false);
+    return cover;
+  }
+
+  const RetractionScene& scene_;
+  image::ScalarVolume liver_;
+  Window window_;
+  double reach_mm_;
+  State mre_, atlas_;
+};
+
+/// Largest ‖u_mre − u_atlas‖ over liver voxels of the slice, mm.
+double largestDifferenceInSlice_mm(const RetractionScene& scene, int k) {
+  const image::Grid& grid = scene.mri.grid;
+  const LpsToIndex toLiver(scene.liver.grid), toMre(scene.u_mre_mm.grid), toAtlas(scene.u_atlas_mm.grid);
+  const image::ScalarVolume liver = asScalar(scene.liver);
+  double largest = 0.0;
+  for (int j = 0; j < grid.size.y(); ++j)
+    for (int i = 0; i < grid.size.x(); ++i) {
+      const Eigen::Vector3d p = grid.indexToLps(Eigen::Vector3i(i, j, k).cast<double>());
+      if (sampleLinear(liver, toLiver(p)) < 0.5F) continue;
+      const Eigen::Vector3f d = sampleLinear(scene.u_mre_mm, toMre(p)) - sampleLinear(scene.u_atlas_mm, toAtlas(p));
+      largest = std::max(largest, static_cast<double>(d.norm()));
+    }
+  return largest;
+}
+
+std::string formatted(const char* pattern, double a, double b = 0.0) {
+  char text[160];
+  std::snprintf(text, sizeof text, pattern, a, b);
+  return text;
+}
+
+}  // namespace
+
+Picture sliceOverlay(const RetractionScene& scene, const SliceOverlayOptions& options) {
+  scene.mri.grid.check();
+  scene.liver.grid.check();
+  scene.u_mre_mm.grid.check();
+  scene.u_atlas_mm.grid.check();
+  if (!(options.grid_mm > 0.0) || !(options.zoom_mm > 0.0))
+    throw BadArgument("grid spacing and zoom width must be positive millimetres");
+  const int k = options.slice < 0 ? sliceOfLargestDifference(scene) : options.slice;
+  SlicePlane plane = planeOfSlice(scene.mri.grid, k, options.pixelsPerVoxel);
+  const Composer composer(scene);
+  if (options.margin_mm) {
+    const auto [low, high] = composer.liverBox(plane);
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(*options.margin_mm / plane.mmPerPixel);
+    plane = cropOf(plane, low - margin, high + margin);
+  }
+  Picture picture = composer.draw(plane, options.palette, options.grid_mm);
+  if (!scene.valid) drawNotValid(picture);
+  if (!options.decorate) return picture;
+
+  SliceFrame frame{.plane = plane};
+  const bool redBlue = options.palette == Palette::RedBlue;
+  frame.legend = {{redBlue ? Rgb{40, 60, 255} : Rgb{0, 115, 255}, "MRE"},
+                  {redBlue ? Rgb{255, 30, 30} : Rgb{255, 140, 0}, "Atlas"},
+                  {redBlue ? Rgb{214, 40, 255} : Rgb{255, 255, 255}, "agree"},
+                  {colours::gridGreen, formatted("grid %g mm", options.grid_mm), true}};
+  frame.notes = {formatted("Slice %.0f of %.0f", k + 1, scene.mri.grid.size.z()) +
+                     formatted(". Largest MRE-atlas difference in this slice: %.1f mm (clinically significant: %g mm).",
+                               largestDifferenceInSlice_mm(scene, k), scene.clinicallySignificant_mm),
+                 "Surroundings of the liver are not simulated: shown at rest, dimmed."};
+  frame.caption = scene.caption;
+  frame.gridTicks_mm = options.grid_mm;
+  Picture inset;
+  if (options.zoomCentre_lps_mm) {
+    const int side = std::max(160, static_cast<int>(0.78 * std::min(picture.width, picture.height)));
+    frame.insetPlane = zoomOf(plane, *options.zoomCentre_lps_mm, options.zoom_mm, side);
+    inset = composer.draw(*frame.insetPlane, options.palette, options.grid_mm);
+    if (!scene.valid) drawNotValid(inset);
+    frame.inset = &inset;
+    frame.insetTitle =
+        formatted("× %.1f, %g mm wide", plane.mmPerPixel / frame.insetPlane->mmPerPixel, options.zoom_mm);
+  }
+  return frameSlice(picture, frame);
+}
+
+CountedPixels countChannels(const Picture& overlay, int threshold) {
+  CountedPixels count;
+  for (std::size_t n = 0; n + 2 < overlay.rgb.size(); n += 3) {
+    const int r = overlay.rgb[n], b = overlay.rgb[n + 2];
+    if (r - b > threshold)
+      ++count.redOnly;
+    else if (b - r > threshold)
+      ++count.blueOnly;
+    else if (std::max(r, b) > threshold)
+      ++count.both;
+  }
+  return count;
+}
+
+}  // namespace glisson::render
