@@ -13,7 +13,8 @@ namespace glisson::dicom {
 /// What a series is for. Guessed, always with a reason; the user can correct it.
 enum class SeriesRole { Anatomical, Magnitude, Wave, Stiffness, Confidence, ColourCopy, Other };
 
-/// Lower-case name as used in JSON: "anatomical", "magnitude", "wave", "stiffness", "confidence", "colour-copy", "other".
+/// Lower-case name as used in JSON: "anatomical", "magnitude", "wave", "stiffness", "confidence", "colour-copy",
+/// "other".
 std::string name(SeriesRole role);
 
 /// A file that takes no part, and why. Data, not an exception.
@@ -29,12 +30,13 @@ struct Series {
   std::string frameOfReferenceUid;  ///< empty where absent
   std::string patientKey;           ///< SHA-256 of the patient's identity: to tell patients apart, never to show
   std::string modality;
-  std::string description;          ///< SeriesDescription, control characters removed
-  int number = 0;                   ///< SeriesNumber
+  std::string description;  ///< SeriesDescription, control characters removed
+  int number = 0;           ///< SeriesNumber
   SeriesRole role = SeriesRole::Other;
-  std::string roleReason;           ///< a sentence
+  std::string roleReason;                    ///< a sentence
   std::vector<std::filesystem::path> files;  ///< in slice order; one entry for a multi-frame file
   std::vector<std::string> sopInstanceUids;  ///< in slice order (one for multi-frame)
+  std::vector<int> frames;                   ///< of a multi-frame file: its frame (from 0) for every slice; else empty
   std::string sopClassUid;
   image::Grid grid;                 ///< LPS mm, from ImagePositionPatient along the normal
   bool colour = false;              ///< samples per pixel > 1 or palette
@@ -55,7 +57,8 @@ struct ScanResult {
 ScanResult scan(const std::filesystem::path& path, const Progress& progress = {});
 
 /// Pixel values with the rescale applied per slice (in double, stored as float), checked against the header before
-/// anything is allocated. Throws BadInput (series.error, truncated pixels, colour, undecodable syntax: names file and tag).
+/// anything is allocated. Throws BadInput (series.error, truncated pixels, colour, undecodable syntax: names file and
+/// tag).
 image::ScalarVolume readSeries(const Series& series, const Progress& progress = {});
 
 /// The only series with this role, or the best of several by a stated rule. Throws BadInput where there is none, naming

@@ -1,0 +1,140 @@
+#include "dicom/attributes.h"
+
+#include <dcmtk/dcmdata/dcistrmb.h>
+
+#include <charconv>
+#include <cmath>
+#include <mutex>
+
+#include "base/error.h"
+
+namespace glisson::dicom {
+namespace {
+
+std::string trimmed(std::string value) {
+  const auto isPad = [](char c) { return c == ' ' || c == '\0' || c == '\t'; };
+  while (!value.empty() && isPad(value.back())) value.pop_back();
+  std::size_t first = 0;
+  while (first < value.size() && isPad(value[first])) ++first;
+  return value.substr(first);
+}
+
+/// Length of the UTF-8 character at the start, 0 where it is none.
+std::size_t utf8Length(const std::string& s, std::size_t at) {
+  const auto byte = [&s](std::size_t n) { return n < s.size() ? static_cast<unsigned char>(s[n]) : 0U; };
+  const unsigned c = byte(at);
+  const std::size_t n = c < 0x80                ? 1
+                        : c >= 0xC2 && c < 0xE0 ? 2
+                        : c >= 0xE0 && c < 0xF0 ? 3
+                        : c >= 0xF0 && c < 0xF5 ? 4
+                                                : 0;
+  for (std::size_t k = 1; k < n; ++k)
+    if ((byte(at + k) & 0xC0U) != 0x80U) return 0;
+  return n;
+}
+
+}  // namespace
+
+void parseHeader(const ByteSource& source, const FileLayout& layout, DcmDataset& dataset) {
+  static std::once_flag quiet;
+  std::call_once(quiet, [] { OFLog::configure(OFLogger::OFF_LOG_LEVEL); });
+  std::vector<std::uint8_t> bytes = source.bytes(layout.datasetOffset, layout.headerEnd - layout.datasetOffset);
+  DcmInputBufferStream stream;
+  stream.setBuffer(bytes.data(), static_cast<offile_off_t>(bytes.size()));
+  stream.setEos();
+  const E_TransferSyntax syntax = layout.bigEndian    ? EXS_BigEndianExplicit
+                                  : layout.explicitVr ? EXS_LittleEndianExplicit
+                                                      : EXS_LittleEndianImplicit;
+  dataset.transferInit();
+  const OFCondition status = dataset.read(stream, syntax, EGL_noChange, DCM_MaxReadLength);
+  dataset.transferEnd();
+  if (status.bad() && status != EC_EndOfStream)
+    throw BadInput(std::string("has a header that cannot be parsed (") + status.text() + ")");
+}
+
+std::string text(DcmItem& item, const DcmTagKey& tag) {
+  DcmElement* element = nullptr;
+  if (item.findAndGetElement(tag, element).bad() || element == nullptr) return {};
+  OFString value;
+  if (element->getOFStringArray(value).good() && element->ident() != EVR_UN && element->ident() != EVR_OB)
+    return trimmed(std::string(value.c_str(), value.size()));
+  Uint8* raw = nullptr;
+  if (element->getUint8Array(raw).good() && raw != nullptr)
+    return trimmed(std::string(reinterpret_cast<const char*>(raw), element->getLength()));
+  return {};
+}
+
+std::string cleaned(const std::string& raw) {
+  std::string out;
+  std::size_t n = 0;
+  while (n < raw.size() && out.size() < 60) {
+    const std::size_t length = utf8Length(raw, n);
+    const auto c = static_cast<unsigned char>(raw[n]);
+    if (length == 0) {  // Latin-1
+      out += static_cast<char>(0xC0U | (c >> 6U));
+      out += static_cast<char>(0x80U | (c & 0x3FU));
+      ++n;
+      continue;
+    }
+    if (c >= 0x20 && c != 0x7F && !(length == 2 && c == 0xC2 && static_cast<unsigned char>(raw[n + 1]) < 0xA0))
+      out.append(raw, n, length);
+    n += length;
+  }
+  return trimmed(out);
+}
+
+std::string shownText(DcmItem& item, const DcmTagKey& tag) {
+  return cleaned(text(item, tag));
+}
+
+std::string nameOf(const DcmTagKey& key) {
+  DcmTag tag(key);
+  return std::string(tag.getTagName()) + " " + key.toString().c_str();
+}
+
+std::vector<double> numbers(DcmItem& item, const DcmTagKey& tag) {
+  const std::string all = text(item, tag);
+  std::vector<double> out;
+  if (all.empty()) return out;
+  std::size_t begin = 0;
+  while (begin <= all.size()) {
+    const std::size_t end = std::min(all.find('\\', begin), all.size());
+    std::string one = trimmed(all.substr(begin, end - begin));
+    if (!one.empty() && one.front() == '+') one.erase(0, 1);
+    double value = 0.0;
+    const auto [stop, problem] = std::from_chars(one.data(), one.data() + one.size(), value);
+    if (problem != std::errc{} || stop != one.data() + one.size() || !std::isfinite(value))
+      throw BadInput(nameOf(tag) + " holds '" + cleaned(one).substr(0, 20) + "', which is no finite decimal number");
+    out.push_back(value);
+    begin = end + 1;
+  }
+  return out;
+}
+
+std::optional<double> number(DcmItem& item, const DcmTagKey& tag) {
+  const std::vector<double> all = numbers(item, tag);
+  if (all.empty()) return {};
+  if (all.size() != 1)
+    throw BadInput(nameOf(tag) + " holds " + std::to_string(all.size()) + " values where one was expected");
+  return all.front();
+}
+
+std::optional<int> count(DcmItem& item, const DcmTagKey& tag) {
+  Uint16 value = 0;
+  if (item.findAndGetUint16(tag, value).bad()) return {};
+  return value;
+}
+
+DcmItem* itemOf(DcmItem& item, const DcmTagKey& sequence, unsigned long index) {
+  DcmSequenceOfItems* items = nullptr;
+  if (item.findAndGetSequence(sequence, items).bad() || items == nullptr || index >= items->card()) return nullptr;
+  return items->getItem(index);
+}
+
+unsigned long itemCount(DcmItem& item, const DcmTagKey& sequence) {
+  DcmSequenceOfItems* items = nullptr;
+  if (item.findAndGetSequence(sequence, items).bad() || items == nullptr) return 0;
+  return items->card();
+}
+
+}  // namespace glisson::dicom

@@ -1,0 +1,180 @@
+#include "dicom/frame_groups.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "dicom/attributes.h"
+
+namespace glisson::dicom {
+namespace {
+
+/// Where an attribute of a frame may stand: the frame's own functional groups, the shared ones, or the data set itself.
+class FrameView {
+ public:
+  FrameView(DcmItem& data, DcmItem* shared, DcmItem* own) : data_(data), shared_(shared), own_(own) {}
+
+  /// The item that holds the attributes of one functional group; the data set where the file has no such group.
+  DcmItem& group(const DcmTagKey& sequence) const {
+    if (DcmItem* item = own_ != nullptr ? itemOf(*own_, sequence) : nullptr) return *item;
+    if (DcmItem* item = shared_ != nullptr ? itemOf(*shared_, sequence) : nullptr) return *item;
+    return data_;
+  }
+
+  DcmItem* realWorldMap() const {
+    if (DcmItem* item = own_ != nullptr ? itemOf(*own_, DCM_RealWorldValueMappingSequence) : nullptr) return item;
+    if (DcmItem* item = shared_ != nullptr ? itemOf(*shared_, DCM_RealWorldValueMappingSequence) : nullptr) return item;
+    return itemOf(data_, DCM_RealWorldValueMappingSequence);
+  }
+
+ private:
+  DcmItem& data_;
+  DcmItem* shared_;
+  DcmItem* own_;
+};
+
+[[noreturn]] void refuse(const DcmTagKey& tag, const std::vector<double>& seen, const std::string& expected) {
+  std::ostringstream why;
+  why << nameOf(tag);
+  if (seen.empty()) {
+    why << " is missing or empty; " << expected;
+  } else {
+    why << " is";
+    for (std::size_t n = 0; n < std::min<std::size_t>(seen.size(), 6); ++n) why << (n > 0 ? "\\" : " ") << seen[n];
+    why << "; " << expected;
+  }
+  throw BadInput(why.str());
+}
+
+void readGeometry(const FrameView& view, Frame& frame) {
+  const std::vector<double> position = numbers(view.group(DCM_PlanePositionSequence), DCM_ImagePositionPatient);
+  if (position.size() != 3) refuse(DCM_ImagePositionPatient, position, "three numbers (x, y, z in mm) were expected");
+  frame.position_lps_mm = Eigen::Vector3d(position[0], position[1], position[2]);
+  if (frame.position_lps_mm.cwiseAbs().maxCoeff() > 1e5)
+    refuse(DCM_ImagePositionPatient, position, "no place in a scanner is 100 m away");
+
+  const std::vector<double> o = numbers(view.group(DCM_PlaneOrientationSequence), DCM_ImageOrientationPatient);
+  if (o.size() != 6) refuse(DCM_ImageOrientationPatient, o, "six direction cosines were expected");
+  const Eigen::Vector3d row(o[0], o[1], o[2]);
+  const Eigen::Vector3d column(o[3], o[4], o[5]);
+  if (std::abs(row.norm() - 1.0) > 1e-3 || std::abs(column.norm() - 1.0) > 1e-3)
+    refuse(DCM_ImageOrientationPatient, o, "two unit vectors were expected");
+  if (std::abs(row.normalized().dot(column.normalized())) > 1e-4)
+    refuse(DCM_ImageOrientationPatient, o, "its two vectors must be at a right angle (to 1e-4 rad)");
+  frame.row = row.normalized();
+  frame.column = (column - column.dot(frame.row) * frame.row).normalized();
+
+  DcmItem& measures = view.group(DCM_PixelMeasuresSequence);
+  const std::vector<double> spacing = numbers(measures, DCM_PixelSpacing);
+  if (spacing.size() != 2 || spacing[0] <= 0.0 || spacing[1] <= 0.0 || spacing[0] > 1000.0 || spacing[1] > 1000.0)
+    refuse(DCM_PixelSpacing, spacing, "two positive numbers (row\\column spacing in mm) were expected");
+  frame.rowSpacing_mm = spacing[0];
+  frame.columnSpacing_mm = spacing[1];
+  // Only cross-checked, so that a senseless value is as good as none.
+  const auto lenient = [&measures](const DcmTagKey& tag) -> std::optional<double> {
+    try {
+      const auto value = number(measures, tag);
+      return value && std::abs(*value) > 0.0 && std::abs(*value) < 1000.0 ? std::optional(std::abs(*value))
+                                                                          : std::nullopt;
+    } catch (const BadInput&) {
+      return std::nullopt;
+    }
+  };
+  frame.thickness_mm = lenient(DCM_SliceThickness);
+  frame.statedSpacing_mm = lenient(DCM_SpacingBetweenSlices);
+}
+
+void warnOnce(ImageHeader& header, const std::string& text) {
+  for (const std::string& known : header.warnings)
+    if (known == text) return;
+  header.warnings.push_back(text);
+}
+
+void readRescale(const FrameView& view, Frame& frame, ImageHeader& header) {
+  DcmItem& group = view.group(DCM_PixelValueTransformationSequence);
+  const auto slope = number(group, DCM_RescaleSlope);
+  const auto intercept = number(group, DCM_RescaleIntercept);
+  if (slope.has_value() != intercept.has_value())
+    throw BadInput("has only one of " + nameOf(DCM_RescaleSlope) + " and " + nameOf(DCM_RescaleIntercept) +
+                   "; the stored values cannot be turned into measured ones");
+  if (slope && *slope == 0.0) throw BadInput(nameOf(DCM_RescaleSlope) + " is 0");
+  if (slope) frame.rescale = {*slope, *intercept};
+  const std::string type = shownText(group, DCM_RescaleType);
+  if (header.unit.empty() && !type.empty() && type != "US") header.unit = type;
+
+  DcmItem* map = view.realWorldMap();
+  if (map == nullptr) return;
+  const auto mapSlope = number(*map, DCM_RealWorldValueSlope);
+  const auto mapIntercept = number(*map, DCM_RealWorldValueIntercept);
+  if (DcmItem* units = itemOf(*map, DCM_MeasurementUnitsCodeSequence)) {
+    const std::string unit = shownText(*units, DCM_CodeValue);
+    if (!unit.empty() && unit != "1" && header.unit.empty()) header.unit = unit;
+  }
+  if (!mapSlope || !mapIntercept || *mapSlope == 0.0) return;
+  const Rescale mapped{*mapSlope, *mapIntercept};
+  if (!slope) {
+    frame.rescale = mapped;
+    if (!(mapped == Rescale{}))
+      warnOnce(header, "has its values scaled by the real-world value map (no rescale is given)");
+  } else if (!(mapped == frame.rescale)) {
+    std::ostringstream why;
+    why << "has a real-world value map (slope " << mapped.slope << ", intercept " << mapped.intercept
+        << ") that differs from its rescale (slope " << frame.rescale.slope << ", intercept " << frame.rescale.intercept
+        << "); the rescale is used: confirm which is meant";
+    warnOnce(header, why.str());
+  }
+}
+
+void readKinds(const FrameView& view, DcmItem& data, Frame& frame) {
+  const auto add = [&frame](const char* what, const std::string& value) {
+    if (!value.empty()) frame.kinds.emplace_back(what, value);
+  };
+  DcmItem& type = view.group(DCM_MRImageFrameTypeSequence);
+  add("image type", text(type, &type == &data ? DCM_ImageType : DCM_FrameType));
+  add("complex component", text(type, DCM_ComplexImageComponent));
+  add("private image type", text(data, DcmTagKey(0x0043, 0x102F)));
+  add("echo number", text(data, DCM_EchoNumbers));
+  DcmItem& echo = view.group(DCM_MREchoSequence);
+  add("echo time", text(echo, &echo == &data ? DCM_EchoTime : DCM_EffectiveEchoTime));
+  add("inversion time", text(data, DCM_InversionTime));
+  DcmItem& diffusion = view.group(DCM_MRDiffusionSequence);
+  add("diffusion b-value", text(diffusion, DCM_DiffusionBValue));
+  DcmItem& content = view.group(DCM_FrameContentSequence);
+  add("temporal position",
+      text(content, &content == &data ? DCM_TemporalPositionIdentifier : DCM_TemporalPositionIndex));
+  add("trigger time", text(data, DCM_TriggerTime));
+  add("acquisition number", text(data, DCM_AcquisitionNumber));
+}
+
+}  // namespace
+
+void readFrames(DcmDataset& data, std::uint64_t frames, ImageHeader& header) {
+  const unsigned long groups = itemCount(data, DCM_PerFrameFunctionalGroupsSequence);
+  DcmItem* shared = itemOf(data, DCM_SharedFunctionalGroupsSequence);
+  if (groups == 0 && frames > 1)
+    throw BadInput("has " + std::to_string(frames) +
+                   " frames and no functional groups, so that the place of a frame is unknown");
+  if (groups > 0 && groups != frames)
+    throw BadInput("has " + std::to_string(frames) + " frames, but functional groups for " + std::to_string(groups));
+  header.frames.reserve(static_cast<std::size_t>(frames));
+  DcmSequenceOfItems* perFrame = nullptr;
+  data.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, perFrame);
+  DcmObject* own = nullptr;
+  for (std::uint64_t n = 0; n < frames; ++n) {
+    if (groups > 0) own = perFrame->nextInContainer(own);
+    Frame frame;
+    frame.number = static_cast<int>(n);
+    const FrameView view(data, shared, static_cast<DcmItem*>(own));
+    try {
+      readGeometry(view, frame);
+      readRescale(view, frame, header);
+    } catch (const BadInput& e) {
+      if (frames == 1) throw;
+      throw BadInput("frame " + std::to_string(n + 1) + ": " + e.what());
+    }
+    readKinds(view, data, frame);
+    header.frames.push_back(std::move(frame));
+  }
+}
+
+}  // namespace glisson::dicom

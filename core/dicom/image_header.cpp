@@ -1,0 +1,191 @@
+#include "dicom/image_header.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/sha256.h"
+#include "dicom/attributes.h"
+#include "dicom/frame_groups.h"
+#include "dicom/pixels.h"
+
+namespace glisson::dicom {
+namespace {
+
+/// Why a file of this SOP class holds no image; empty where it may.
+std::string noImageReason(const std::string& sopClass, const std::string& modality) {
+  if (sopClass == UID_RTStructureSetStorage || modality == "RTSTRUCT")
+    return "is an RT Structure Set: contours, no image";
+  if (sopClass == UID_SegmentationStorage || modality == "SEG") return "is a Segmentation: labels, no image series";
+  if (sopClass == UID_MediaStorageDirectoryStorage) return "is a DICOMDIR index; the files themselves are read";
+  if (modality == "SR") return "is a Structured Report: no image";
+  if (modality == "PR") return "is a Presentation State: no image";
+  if (modality == "KO") return "is a Key Object Selection: no image";
+  return {};
+}
+
+int required(DcmItem& data, const DcmTagKey& tag) {
+  const auto value = count(data, tag);
+  if (!value) throw BadInput(nameOf(tag) + " is missing");
+  if (*value == 0) throw BadInput(nameOf(tag) + " is 0");
+  return *value;
+}
+
+void readPixelDescription(DcmDataset& data, ImageHeader& h) {
+  h.rows = required(data, DCM_Rows);
+  h.columns = required(data, DCM_Columns);
+  h.samples = count(data, DCM_SamplesPerPixel).value_or(1);
+  h.bitsAllocated = required(data, DCM_BitsAllocated);
+  const std::string photometric = text(data, DCM_PhotometricInterpretation);
+  h.palette = photometric == "PALETTE COLOR";
+  const bool grey = photometric == "MONOCHROME1" || photometric == "MONOCHROME2";
+  h.kind = h.layout.pixels->element == 0x0008   ? PixelKind::Float
+           : h.layout.pixels->element == 0x0009 ? PixelKind::Double
+                                                : PixelKind::Integer;
+  if (h.samples != 1 && h.samples != 3)
+    throw BadInput(nameOf(DCM_SamplesPerPixel) + " is " + std::to_string(h.samples) + "; 1 or 3 was expected");
+  if (h.samples == 3 && (grey || h.palette))
+    throw BadInput("has three samples per pixel but a photometric interpretation for one");
+  if (h.samples == 1 && !grey && !h.palette && !(photometric.empty() && h.kind != PixelKind::Integer))
+    throw BadInput(nameOf(DCM_PhotometricInterpretation) + " is '" + cleaned(photometric).substr(0, 20) +
+                   "', which does not go with one sample per pixel");
+  if (h.kind != PixelKind::Integer) {
+    const int expected = h.kind == PixelKind::Float ? 32 : 64;
+    if (h.bitsAllocated != expected)
+      throw BadInput(nameOf(DCM_BitsAllocated) + " is " + std::to_string(h.bitsAllocated) +
+                     "; floating point pixels have " + std::to_string(expected));
+    h.bitsStored = expected;
+    return;
+  }
+  if (h.bitsAllocated != 8 && h.bitsAllocated != 16 && h.bitsAllocated != 32)
+    throw BadInput(nameOf(DCM_BitsAllocated) + " is " + std::to_string(h.bitsAllocated) + "; 8, 16 or 32 can be read");
+  h.bitsStored = required(data, DCM_BitsStored);
+  if (h.bitsStored > h.bitsAllocated)
+    throw BadInput(nameOf(DCM_BitsStored) + " is " + std::to_string(h.bitsStored) + ", more than the " +
+                   std::to_string(h.bitsAllocated) + " bits allocated");
+  const int highBit = count(data, DCM_HighBit).value_or(h.bitsStored - 1);
+  if (highBit != h.bitsStored - 1)
+    throw BadInput(nameOf(DCM_HighBit) + " is " + std::to_string(highBit) + " with " + std::to_string(h.bitsStored) +
+                   " bits stored; " + std::to_string(h.bitsStored - 1) + " was expected");
+  const int representation = count(data, DCM_PixelRepresentation).value_or(0);
+  if (representation > 1)
+    throw BadInput(nameOf(DCM_PixelRepresentation) + " is " + std::to_string(representation) + "; 0 or 1 was expected");
+  h.isSigned = representation == 1;
+}
+
+/// The number of frames, after checking that the pixel data hold exactly as many.
+std::uint64_t checkedFrameCount(DcmDataset& data, ImageHeader& h, const ByteSource& source, std::uint64_t fileBytes) {
+  const double announced = number(data, DCM_NumberOfFrames).value_or(1.0);
+  if (announced < 1.0 || announced > 2147483647.0 || announced != std::floor(announced)) {
+    std::ostringstream why;
+    why << nameOf(DCM_NumberOfFrames) << " is " << announced << "; a whole number from 1 on was expected";
+    throw BadInput(why.str());
+  }
+  const auto frames = static_cast<std::uint64_t>(announced);
+  const std::uint64_t frameBytes = h.frameBytes();  // at most 65535² · 3 · 8 < 2^37
+  std::ostringstream what;
+  what << frames << " frame(s) of " << h.rows << " x " << h.columns << " pixels, " << h.samples << " sample(s) of "
+       << h.bitsAllocated << " bits";
+  const PixelElement& pixels = *h.layout.pixels;
+  if (pixels.encapsulated) {
+    if (pixels.fragments.size() < frames)
+      throw BadInput("announces " + what.str() + ", but holds " + std::to_string(pixels.fragments.size()) +
+                     " compressed fragments");
+    if (frames > memoryBudget(fileBytes) / frameBytes)
+      throw BadInput("announces " + what.str() + ", beyond the memory budget for a compressed file of " +
+                     std::to_string(fileBytes) + " bytes");
+    return frames;
+  }
+  // An element holds less than 2^32 bytes, so that a product which could overflow is too large in any case.
+  const bool beyond = frames > (1ULL << 40) / frameBytes;
+  const std::uint64_t needed = beyond ? 1ULL << 40 : frames * frameBytes;
+  if (pixels.length != needed && pixels.length != needed + needed % 2) {
+    std::ostringstream why;
+    if (pixels.length < needed) {
+      why << "is truncated: it announces " << what.str() << ", but its pixel data have " << pixels.length << " bytes";
+      throw BadInput(why.str());
+    }
+    const std::uint64_t extra = pixels.length - needed;
+    bool zeros = extra <= (1U << 20);
+    if (zeros)
+      for (const std::uint8_t byte : source.bytes(pixels.offset + needed, extra)) zeros = zeros && byte == 0;
+    if (!zeros) {
+      why << "announces " << what.str() << " (" << needed << " bytes), but its pixel data have " << pixels.length
+          << " bytes; which of them are the image is not guessed";
+      throw BadInput(why.str());
+    }
+    h.warnings.push_back("has " + std::to_string(extra) + " bytes of zeros after its pixels");
+  }
+  return frames;
+}
+
+std::string unitOf(DcmDataset& data) {
+  const std::string type = shownText(data, DCM_RescaleType);
+  return type == "US" ? std::string() : type;
+}
+
+}  // namespace
+
+ImageHeader readImageHeader(const std::filesystem::path& file, ByteSource& source) {
+  ImageHeader h;
+  h.file = file;
+  bool image = true;
+  try {
+    const std::uint64_t fileBytes = source.size();
+    h.layout = readLayout(source);
+    DcmDataset data;
+    parseHeader(source, h.layout, data);
+    h.warnings = h.layout.warnings;
+    h.sopClassUid = shownText(data, DCM_SOPClassUID);
+    if (h.sopClassUid.empty()) h.sopClassUid = h.layout.sopClassUid;
+    h.modality = shownText(data, DCM_Modality);
+    const std::string reason = noImageReason(h.sopClassUid, h.modality);
+    image = reason.empty() && h.layout.pixels.has_value();
+    if (!reason.empty()) throw BadInput(reason);
+    if (!h.layout.pixels) throw BadInput("holds no pixel data");
+    h.seriesUid = text(data, DCM_SeriesInstanceUID);
+    if (h.seriesUid.empty()) throw BadInput(nameOf(DCM_SeriesInstanceUID) + " is missing or empty");
+    if (h.seriesUid.size() > 64 || h.seriesUid.find_first_not_of("0123456789.") != std::string::npos)
+      throw BadInput(nameOf(DCM_SeriesInstanceUID) + " is no valid UID (digits and dots, at most 64)");
+    h.studyUid = shownText(data, DCM_StudyInstanceUID);
+    h.frameOfReferenceUid = shownText(data, DCM_FrameOfReferenceUID);
+    h.sopInstanceUid = text(data, DCM_SOPInstanceUID);
+    if (h.sopInstanceUid.size() > 64 || h.sopInstanceUid.find_first_not_of("0123456789.") != std::string::npos) {
+      h.warnings.push_back(nameOf(DCM_SOPInstanceUID) + " is no valid UID");
+      h.sopInstanceUid.clear();
+    }
+    const std::string identity = text(data, DCM_PatientID) + '\0' + text(data, DCM_PatientName);
+    h.patientKey = sha256(identity.data(), identity.size());
+    h.description = shownText(data, DCM_SeriesDescription);
+    h.imageType = shownText(data, DCM_ImageType);
+    h.manufacturer = shownText(data, DCM_Manufacturer);
+    h.sequenceName = shownText(data, DcmTagKey(0x0019, 0x109C));
+    if (h.sequenceName.empty()) h.sequenceName = shownText(data, DCM_SequenceName);
+    h.mosaic = h.imageType.find("MOSAIC") != std::string::npos;
+    h.lossy = text(data, DCM_LossyImageCompression) == "01" || isLossy(h.layout.transferSyntax);
+    if (h.lossy) h.warnings.push_back("was compressed with loss: its values are not the measured ones");
+    try {
+      const double value = number(data, DCM_SeriesNumber).value_or(0.0);
+      if (std::abs(value) < 2e9) h.seriesNumber = static_cast<int>(value);
+    } catch (const BadInput&) {
+      h.warnings.push_back(nameOf(DCM_SeriesNumber) + " is no number");
+    }
+    h.unit = unitOf(data);
+    readPixelDescription(data, h);
+    const std::uint64_t frames = checkedFrameCount(data, h, source, fileBytes);
+    readFrames(data, frames, h);
+    return h;
+  } catch (const BadInput& e) {
+    RefusedFile refused;
+    refused.reason = e.what();
+    if (image) refused.seriesUid = h.seriesUid;
+    throw refused;
+  } catch (const std::bad_alloc&) {
+    RefusedFile refused;
+    refused.reason = "asks for more memory than there is";
+    if (image) refused.seriesUid = h.seriesUid;
+    throw refused;
+  }
+}
+
+}  // namespace glisson::dicom

@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "dicom/image_header.h"
+#include "dicom/roles.h"
+#include "dicom/series.h"
+#include "dicom/volumes.h"
+
+namespace glisson::dicom {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t maxFiles = 200'000;
+constexpr int maxFolderDepth = 64;
+
+std::string lower(std::string s) {
+  for (char& c : s)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return s;
+}
+
+/// Collects the regular files below a folder, in order of their names, and says why the rest is left out.
+class FolderWalk {
+ public:
+  FolderWalk(std::vector<SkippedFile>& skipped, const Progress& progress) : skipped_(skipped), progress_(progress) {}
+
+  void walk(const fs::path& root) {
+    std::error_code failed;
+    root_ = fs::canonical(root, failed);
+    folder(root, 0);
+  }
+
+  std::vector<fs::path> files;
+
+ private:
+  void folder(const fs::path& where, int depth) {
+    progress_.check();
+    if (depth > maxFolderDepth) return skip(where, "folders are nested more than 64 deep");
+    std::error_code failed;
+    std::vector<fs::path> entries;
+    for (fs::directory_iterator it(where, failed), end; !failed && it != end; it.increment(failed))
+      entries.push_back(it->path());
+    if (failed) skip(where, "the folder cannot be read");
+    std::sort(entries.begin(), entries.end());
+    for (const fs::path& entry : entries) take(entry, depth);
+  }
+
+  void take(const fs::path& entry, int depth) {
+    std::error_code failed;
+    const fs::file_status status = fs::symlink_status(entry, failed);
+    switch (status.type()) {
+      case fs::file_type::regular:
+        if (files.size() >= maxFiles) return skip(entry, "more than 200000 files in one folder; scan a smaller one");
+        files.push_back(entry);
+        return;
+      case fs::file_type::directory:
+        return folder(entry, depth + 1);
+      case fs::file_type::symlink:
+        return skip(entry, linkReason(entry));
+      default:
+        return skip(entry, "is no regular file (pipe, device or socket)");
+    }
+  }
+
+  /// Links are never followed: what they point to inside the folder is read where it lies.
+  std::string linkReason(const fs::path& entry) const {
+    std::error_code failed;
+    const fs::path target = fs::canonical(entry, failed);
+    if (failed) return "is a link that leads nowhere or in a circle";
+    const auto [end, ignored] = std::mismatch(root_.begin(), root_.end(), target.begin(), target.end());
+    if (end != root_.end()) return "is a link that leaves the folder";
+    return "is a link to something in this folder, which is read where it lies";
+  }
+
+  void skip(const fs::path& file, const std::string& reason) { skipped_.push_back({file, reason}); }
+
+  std::vector<SkippedFile>& skipped_;
+  const Progress& progress_;
+  fs::path root_;
+};
+
+/// Drops copies of an image (same SOP instance at the same place).
+void dropCopies(std::vector<ImageHeader>& headers, std::vector<SkippedFile>& skipped) {
+  std::map<std::string, const ImageHeader*> seen;
+  std::vector<ImageHeader> kept;
+  kept.reserve(headers.size());  // so that the pointers in seen stay valid
+  for (ImageHeader& h : headers) {
+    const auto known = seen.find(h.sopInstanceUid);
+    if (h.sopInstanceUid.empty() || known == seen.end()) {
+      kept.push_back(std::move(h));
+      if (!kept.back().sopInstanceUid.empty()) seen[kept.back().sopInstanceUid] = &kept.back();
+      continue;
+    }
+    const Frame& a = known->second->frames.front();
+    if ((a.position_lps_mm - h.frames.front().position_lps_mm).norm() < 1e-3) {
+      skipped.push_back(
+          {h.file, "is a copy of '" + known->second->file.filename().string() + "' (same SOP instance and position)"});
+    } else {
+      h.warnings.push_back("has the SOP Instance UID of another image");
+      kept.push_back(std::move(h));
+    }
+  }
+  headers = std::move(kept);
+}
+
+}  // namespace
+
+ScanResult scan(const fs::path& path, const Progress& progress) {
+  ScanResult result;
+  std::error_code failed;
+  const fs::file_status status = fs::status(path, failed);
+  if (!fs::exists(status)) throw BadInput("'" + path.filename().string() + "' does not exist");
+  FolderWalk walk(result.skipped, progress);
+  if (fs::is_directory(status)) {
+    walk.walk(path);
+  } else if (path.filename() == "DICOMDIR") {
+    walk.walk(path.has_parent_path() ? path.parent_path() : fs::path("."));
+  } else {
+    walk.files.push_back(path);
+  }
+
+  std::map<std::string, std::vector<ImageHeader>> bySeries;
+  std::map<std::string, std::vector<fs::path>> refused;
+  for (std::size_t n = 0; n < walk.files.size(); ++n) {
+    const fs::path& file = walk.files[n];
+    if (n % 16 == 0)
+      progress.report(static_cast<double>(n) / static_cast<double>(walk.files.size()), "reading image headers");
+    try {
+      if (lower(file.filename().string()) == "dicomdir")
+        throw BadInput("is a DICOMDIR index; the files are read directly");
+      ByteSource source(file);
+      ImageHeader header = readImageHeader(file, source);
+      bySeries[header.seriesUid].push_back(std::move(header));
+    } catch (const RefusedFile& e) {
+      result.skipped.push_back({file, e.reason});
+      if (!e.seriesUid.empty()) refused[e.seriesUid].push_back(file);
+    } catch (const BadInput& e) {
+      result.skipped.push_back({file, e.what()});
+    }
+  }
+
+  for (auto& [uid, headers] : bySeries) {
+    dropCopies(headers, result.skipped);
+    std::vector<Series> volumes = buildVolumes(headers);
+    setRoles(volumes, headers.front());
+    const auto incomplete = refused.find(uid);
+    for (Series& s : volumes) {
+      if (incomplete != refused.end() && !s.error)
+        s.error = "it is incomplete: '" + incomplete->second.front().filename().string() + "'" +
+                  (incomplete->second.size() > 1
+                       ? " and " + std::to_string(incomplete->second.size() - 1) + " more of its files were"
+                       : std::string(" was")) +
+                  " refused (see the skipped files)";
+      result.series.push_back(std::move(s));
+    }
+  }
+  std::stable_sort(result.series.begin(), result.series.end(),
+                   [](const Series& a, const Series& b) { return a.number < b.number; });
+  std::stable_sort(result.skipped.begin(), result.skipped.end(),
+                   [](const SkippedFile& a, const SkippedFile& b) { return a.file < b.file; });
+  progress.report(1.0, "reading image headers");
+  return result;
+}
+
+}  // namespace glisson::dicom

@@ -1,0 +1,335 @@
+#include "dicom/volumes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "base/error.h"
+#include "dicom/pixels.h"
+
+namespace glisson::dicom {
+namespace {
+
+/// Two images nearer than this lie at one position.
+constexpr double samePlace_mm = 0.01;
+
+struct Plane {
+  const ImageHeader* header = nullptr;
+  const Frame* frame = nullptr;
+  double along_mm = 0.0;  ///< position · normal
+};
+using Planes = std::vector<Plane>;
+
+std::string nameOf(const Plane& p) {
+  std::string name = "'" + p.header->file.filename().string() + "'";
+  if (p.header->frames.size() > 1) name += " frame " + std::to_string(p.frame->number + 1);
+  return name;
+}
+
+std::string namesOf(const Planes& planes) {
+  std::string names;
+  for (std::size_t n = 0; n < planes.size() && n < 3; ++n) names += (n > 0 ? ", " : "") + nameOf(planes[n]);
+  if (planes.size() > 3) names += " and " + std::to_string(planes.size() - 3) + " more";
+  return names;
+}
+
+/// Parts the planes into those that agree with the first and the others; an error names both.
+template <typename Same>
+std::optional<std::string> mixed(const Planes& planes, const char* what, Same same) {
+  Planes with;
+  Planes without;
+  for (const Plane& p : planes) (same(planes.front(), p) ? with : without).push_back(p);
+  if (without.empty()) return {};
+  return std::string("its images differ in ") + what + ": " + namesOf(with) + " against " + namesOf(without) +
+         "; a volume cannot be made of them";
+}
+
+std::optional<std::string> mixture(const Planes& planes) {
+  const auto near = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm() < 1e-3; };
+  const auto close = [](double a, double b) { return std::abs(a - b) <= 1e-3 * std::max(a, b); };
+  if (auto e = mixed(planes, "orientation", [&](const Plane& a, const Plane& b) {
+        return near(a.frame->row, b.frame->row) && near(a.frame->column, b.frame->column);
+      }))
+    return e;
+  if (auto e = mixed(planes, "size (rows, columns)", [](const Plane& a, const Plane& b) {
+        return a.header->rows == b.header->rows && a.header->columns == b.header->columns;
+      }))
+    return e;
+  if (auto e = mixed(planes, "pixel spacing", [&](const Plane& a, const Plane& b) {
+        return close(a.frame->rowSpacing_mm, b.frame->rowSpacing_mm) &&
+               close(a.frame->columnSpacing_mm, b.frame->columnSpacing_mm);
+      }))
+    return e;
+  if (auto e = mixed(planes, "frame of reference", [](const Plane& a, const Plane& b) {
+        return a.header->frameOfReferenceUid == b.header->frameOfReferenceUid;
+      }))
+    return e;
+  if (auto e = mixed(planes, "patient",
+                     [](const Plane& a, const Plane& b) { return a.header->patientKey == b.header->patientKey; }))
+    return e;
+  return mixed(planes, "kind of pixels (colour or grey)",
+               [](const Plane& a, const Plane& b) { return a.header->colour() == b.header->colour(); });
+}
+
+bool hasDuplicates(Planes planes) {
+  std::sort(planes.begin(), planes.end(), [](const Plane& a, const Plane& b) { return a.along_mm < b.along_mm; });
+  for (std::size_t n = 1; n < planes.size(); ++n)
+    if (planes[n].along_mm - planes[n - 1].along_mm < samePlace_mm) return true;
+  return false;
+}
+
+std::size_t distinctPositions(Planes planes) {
+  std::sort(planes.begin(), planes.end(), [](const Plane& a, const Plane& b) { return a.along_mm < b.along_mm; });
+  std::size_t count = planes.empty() ? 0 : 1;
+  for (std::size_t n = 1; n < planes.size(); ++n)
+    if (planes[n].along_mm - planes[n - 1].along_mm >= samePlace_mm) ++count;
+  return count;
+}
+
+/// Numbers by value, the rest as text, so that "10" comes after "9".
+struct NaturalOrder {
+  bool operator()(const std::string& a, const std::string& b) const {
+    double x = 0.0;
+    double y = 0.0;
+    const bool isX = std::from_chars(a.data(), a.data() + a.size(), x).ptr == a.data() + a.size() && !a.empty();
+    const bool isY = std::from_chars(b.data(), b.data() + b.size(), y).ptr == b.data() + b.size() && !b.empty();
+    if (isX && isY) return x != y ? x < y : a < b;
+    return isX != isY ? isX : a < b;
+  }
+};
+
+struct Part {
+  Planes planes;
+  std::string told;  ///< what tells it from its siblings, e.g. "echo time 4.6"
+};
+
+/// Parts planes that share positions by the first attribute that explains it; again within each part.
+void split(Part part, std::vector<Part>& out) {
+  if (!hasDuplicates(part.planes)) {
+    out.push_back(std::move(part));
+    return;
+  }
+  static constexpr const char* attributes[] = {
+      "image type",     "complex component", "private image type", "echo number",  "echo time",
+      "inversion time", "diffusion b-value", "temporal position",  "trigger time", "acquisition number"};
+  for (const char* attribute : attributes) {
+    const std::string name = attribute;
+    std::map<std::string, Planes, NaturalOrder> byValue;
+    for (const Plane& p : part.planes) {
+      std::string value;
+      for (const auto& [what, text] : p.frame->kinds)
+        if (what == name) value = text;
+      byValue[value].push_back(p);
+    }
+    if (byValue.size() < 2) continue;
+    // Images of one kind cover the same places; times and numbers that merely count the slices up explain nothing.
+    const std::size_t places = distinctPositions(byValue.begin()->second);
+    bool sound = true;
+    for (const auto& [value, planes] : byValue) {
+      const std::size_t here = distinctPositions(planes);
+      if (name != "image type" && name != "private image type" && here != places) sound = false;
+      if ((name == "trigger time" || name == "acquisition number") && here < 2) sound = false;
+    }
+    if (!sound) continue;
+    for (auto& [value, planes] : byValue)
+      split({std::move(planes), part.told + (part.told.empty() ? "" : ", ") + name + " " + value.substr(0, 40)}, out);
+    return;
+  }
+  out.push_back(std::move(part));
+}
+
+std::string positionText(double along_mm) {
+  std::ostringstream s;
+  s.precision(6);
+  s << along_mm;
+  return s.str();
+}
+
+/// Sets spacing along the normal, or the error that says why there is none.
+void spaceSlices(const Planes& planes, const Eigen::Vector3d& normal, Series& series) {
+  const Frame& first = *planes.front().frame;
+  if (planes.size() == 1) {
+    const double depth = first.statedSpacing_mm.value_or(first.thickness_mm.value_or(0.0));
+    series.grid.spacing_mm.z() = depth > 0.0 ? depth : first.rowSpacing_mm;
+    series.warnings.push_back(
+        depth > 0.0 ? "has a single slice: statistics are possible, a 3-D model is not"
+                    : "has a single slice and no slice thickness: the pixel spacing stands in for it; statistics are "
+                      "possible, a 3-D model is not");
+    return;
+  }
+  Planes shared;
+  for (std::size_t n = 1; n < planes.size(); ++n)
+    if (planes[n].along_mm - planes[n - 1].along_mm < samePlace_mm) {
+      if (shared.empty()) shared.push_back(planes[n - 1]);
+      shared.push_back(planes[n]);
+    }
+  if (!shared.empty()) {
+    series.error = "several images lie at one position and nothing tells them apart: " + namesOf(shared) +
+                   "; separate them before loading";
+    return;
+  }
+  for (const Plane& p : planes) {
+    const Eigen::Vector3d step = p.frame->position_lps_mm - first.position_lps_mm;
+    const double aside = (step - step.dot(normal) * normal).norm();
+    if (aside > std::max(0.02, 0.002 * std::abs(step.dot(normal)))) {
+      std::ostringstream why;
+      why << "its slices are not stacked along their normal (gantry tilt): " << nameOf(p) << " lies " << aside
+          << " mm to the side of " << nameOf(planes.front()) << "; resample it to a regular grid first";
+      series.error = why.str();
+      return;
+    }
+  }
+  double smallest = planes[1].along_mm - planes[0].along_mm;
+  for (std::size_t n = 1; n < planes.size(); ++n)
+    smallest = std::min(smallest, planes[n].along_mm - planes[n - 1].along_mm);
+  const double tolerance = 0.01 * smallest + 0.005;
+  std::vector<std::string> missing;
+  std::optional<std::size_t> uneven;
+  for (std::size_t n = 1; n < planes.size(); ++n) {
+    const double gap = planes[n].along_mm - planes[n - 1].along_mm;
+    const double whole = std::round(gap / smallest);
+    if (std::abs(gap - whole * smallest) > tolerance * whole) {
+      if (!uneven) uneven = n;
+    } else {
+      for (int m = 1; m < static_cast<int>(whole) && missing.size() < 10; ++m)
+        missing.push_back(positionText(planes[n - 1].along_mm + m * smallest) + " mm (between " +
+                          nameOf(planes[n - 1]) + " and " + nameOf(planes[n]) + ")");
+    }
+  }
+  series.grid.spacing_mm.z() = smallest;
+  if (uneven) {
+    std::ostringstream why;
+    why << "its slices are unevenly spaced: " << planes[*uneven].along_mm - planes[*uneven - 1].along_mm
+        << " mm between " << nameOf(planes[*uneven - 1]) << " and " << nameOf(planes[*uneven]) << ", " << smallest
+        << " mm elsewhere; no averaged spacing is made up";
+    series.warnings.push_back(why.str());
+    series.error = why.str();
+  } else if (!missing.empty()) {
+    std::string places;
+    for (const std::string& place : missing) places += (places.empty() ? "" : "; ") + place;
+    series.warnings.push_back("a slice is missing at " + places + " along the normal");
+    series.error = "a slice is missing at " + places + " along the normal; add its file, or load a complete series";
+  } else {
+    series.grid.spacing_mm.z() =
+        (planes.back().along_mm - planes.front().along_mm) / static_cast<double>(planes.size() - 1);
+    if (planes.size() == 2) series.warnings.push_back("has only 2 slices: too few for a 3-D model");
+  }
+  if (first.statedSpacing_mm && std::abs(*first.statedSpacing_mm - smallest) > 0.02 * smallest + 0.005) {
+    std::ostringstream why;
+    why << "says that its slices are " << *first.statedSpacing_mm << " mm apart; their positions say " << smallest
+        << " mm, which is used";
+    series.warnings.push_back(why.str());
+  }
+}
+
+Series describe(const ImageHeader& h) {
+  Series s;
+  s.uid = h.seriesUid;
+  s.studyUid = h.studyUid;
+  s.frameOfReferenceUid = h.frameOfReferenceUid;
+  s.patientKey = h.patientKey;
+  s.modality = h.modality;
+  s.description = h.description;
+  s.number = h.seriesNumber;
+  s.sopClassUid = h.sopClassUid;
+  s.colour = h.colour();
+  s.grid.size = {h.columns, h.rows, 1};
+  if (!h.unit.empty()) s.unit = h.unit;
+  if (h.frameOfReferenceUid.empty())
+    s.warnings.push_back("has no frame of reference: how it lies to others is unknown");
+  return s;
+}
+
+void addFiles(const Planes& planes, Series& series) {
+  const bool multi = planes.front().header->frames.size() > 1;
+  for (const Plane& p : planes) {
+    if (multi) series.frames.push_back(p.frame->number);
+    if (multi && !series.files.empty() && series.files.back() == p.header->file) continue;
+    series.files.push_back(p.header->file);
+    series.sopInstanceUids.push_back(p.header->sopInstanceUid);
+  }
+  std::map<std::string, Planes> warned;
+  for (const Plane& p : planes)
+    if (&p.header->frames.front() == p.frame || planes.size() == 1)
+      for (const std::string& w : p.header->warnings) warned[w].push_back(p);
+  for (const auto& [text, where] : warned)
+    series.warnings.push_back((where.size() == planes.size() ? std::string("every file") : namesOf(where)) + " " +
+                              text);
+}
+
+Series volumeOf(Planes planes, const Eigen::Vector3d& normal) {
+  std::stable_sort(planes.begin(), planes.end(),
+                   [](const Plane& a, const Plane& b) { return a.along_mm < b.along_mm; });
+  const ImageHeader& h = *planes.front().header;
+  const Frame& first = *planes.front().frame;
+  Series s = describe(h);
+  addFiles(planes, s);
+  s.grid.size.z() = static_cast<int>(planes.size());
+  s.grid.spacing_mm = {first.columnSpacing_mm, first.rowSpacing_mm, 1.0};
+  s.grid.origin_lps_mm = first.position_lps_mm;
+  s.grid.direction.col(0) = first.row;
+  s.grid.direction.col(1) = first.column;
+  s.grid.direction.col(2) = normal;
+  for (const Plane& p : planes)
+    if (const auto why = undecodable(p.header->layout.transferSyntax)) s.error = nameOf(p) + ": " + *why;
+  if (s.error) return s;
+  for (const Plane& p : planes)
+    if (p.header->mosaic) {
+      s.error =
+          "its images are Siemens mosaics (all slices of a volume tiled into one picture); export it as single "
+          "slices or as enhanced multi-frame";
+      return s;
+    }
+  for (const Plane& p : planes)
+    if (planes.front().header->frames.size() > 1 && p.header != planes.front().header) {
+      s.error =
+          "it spreads over several multi-frame files: " + namesOf({planes.front(), p}) + "; load one of them alone";
+      return s;
+    }
+  spaceSlices(planes, normal, s);
+  if (s.error) return s;
+  try {
+    s.grid.check();
+  } catch (const BadInput& e) {
+    s.error = e.what();
+  }
+  return s;
+}
+
+}  // namespace
+
+std::vector<Series> buildVolumes(const std::vector<ImageHeader>& headers) {
+  Planes planes;
+  for (const ImageHeader& h : headers)
+    for (const Frame& f : h.frames) planes.push_back({&h, &f, 0.0});
+  if (const auto why = mixture(planes)) {
+    Series s = describe(*planes.front().header);
+    addFiles(planes, s);
+    s.grid.size.z() = static_cast<int>(planes.size());
+    s.error = *why;
+    return {s};
+  }
+  const Eigen::Vector3d normal = planes.front().frame->row.cross(planes.front().frame->column).normalized();
+  for (Plane& p : planes) p.along_mm = p.frame->position_lps_mm.dot(normal);
+  std::vector<Part> parts;
+  // Mosaics are refused as a whole: their positions are those of the tiled picture.
+  if (headers.front().mosaic)
+    parts.push_back({planes, {}});
+  else
+    split({planes, {}}, parts);
+  std::vector<Series> out;
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    Series s = volumeOf(parts[n].planes, normal);
+    if (parts.size() > 1) {
+      if (n > 0) s.uid += "#" + std::to_string(n + 1);
+      s.warnings.push_back("volume " + std::to_string(n + 1) + " of " + std::to_string(parts.size()) +
+                           " in one series, told apart by " + parts[n].told);
+    }
+    out.push_back(std::move(s));
+  }
+  return out;
+}
+
+}  // namespace glisson::dicom
