@@ -8,10 +8,21 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "mechanics/factorisation.h"
 #include "mechanics/krylov.h"
+#include "mechanics/multigrid.h"
 #include "mechanics/supports.h"
 
 namespace glisson::mechanics {
+
+namespace {
+
+constexpr int directSize = 6000;       ///< degrees of freedom that are factorised without further thought
+constexpr double hardContrast = 1e3;   ///< of moduli, where multigrid by mean moduli begins to slow down
+constexpr double hardPoisson = 0.495;  ///< likewise
+constexpr int multigridLimit = 400;    ///< iterations before Auto falls back
+
+}  // namespace
 
 struct StaticSolver::State {
   VoxelOperator op;
@@ -79,6 +90,57 @@ struct StaticSolver::State {
     return std::clamp(op.dofs(), 1000, 20000);
   }
 
+  std::unique_ptr<Multigrid> multigrid;   ///< made when first needed
+  bool multigridFailed = false;           ///< then Auto does not try again
+  std::unique_ptr<Factorisation> factor;  ///< likewise
+
+  KrylovResult runMultigrid(const std::vector<double>& b, std::vector<double>& x, int limit, const Progress& progress) {
+    if (!multigrid) multigrid = std::make_unique<Multigrid>(op);
+    KrylovOptions k;
+    k.limit = options.iterations > 0 ? options.iterations : limit;
+    k.tolerance = options.tolerance;
+    k.flexible = true;
+    k.energyToo = true;
+    return conjugateGradients(
+        op.lattice(), b, x, [this](const std::vector<double>& r, std::vector<double>& z) { multigrid->cycle(r, z); }, k,
+        progress);
+  }
+
+  /// Direct solve with refinement; the iterations are the corrections made.
+  KrylovResult runFactorised(const std::vector<double>& b, std::vector<double>& x, const Progress& progress) {
+    progress.report(0, "factorising");
+    if (!factor) factor = std::make_unique<Factorisation>(op.lattice(), op.K0());
+    std::vector<double> r = b;
+    std::vector<double> d(b.size());
+    const double bNorm = norm(b);
+    KrylovResult result;
+    x.assign(b.size(), 0.0);
+    result.residual = 1;
+    constexpr int corrections = 8;
+    for (; result.iterations < corrections; ++result.iterations) {
+      progress.check();
+      factor->solve(r.data(), d.data());
+      std::vector<double> better = x;
+      for (std::size_t i = 0; i < x.size(); ++i) better[i] += d[i];
+      op.lattice().apply(better.data(), d.data());
+      for (std::size_t i = 0; i < x.size(); ++i) d[i] = b[i] - d[i];
+      const double residual = norm(d) / bNorm;
+      if (!std::isfinite(residual)) {
+        result.status = SolveStatus::NotFinite;
+        return result;
+      }
+      if (residual >= result.residual) break;
+      const bool slow = residual > 0.1 * result.residual;
+      result.residual = residual;
+      x.swap(better);
+      r.swap(d);
+      // One correction more than the tolerance asks is cheap and takes the error of a badly conditioned body away.
+      if (slow || residual < 1e-15) break;
+    }
+    result.status = result.residual <= options.tolerance ? SolveStatus::Converged : SolveStatus::StoppedAtLimit;
+    return result;
+  }
+
   KrylovResult runCg(Preconditioner kind, const std::vector<double>& b, std::vector<double>& x,
                      const Progress& progress) {
     KrylovOptions k;
@@ -86,7 +148,89 @@ struct StaticSolver::State {
     k.tolerance = options.tolerance;
     return conjugateGradients(op.lattice(), b, x, preconditioning(kind), k, progress);
   }
+
+  KrylovResult run(const std::vector<double>& b, std::vector<double>& x, SolveReport& report, const Progress& progress);
+  KrylovResult runAuto(const std::vector<double>& b, std::vector<double>& x, SolveReport& report,
+                       const Progress& progress);
 };
+
+KrylovResult StaticSolver::State::run(const std::vector<double>& b, std::vector<double>& x, SolveReport& report,
+                                      const Progress& progress) {
+  switch (options.kind) {
+    case SolverKind::Cg:
+      report.kind = options.preconditioner == Preconditioner::None     ? "cg"
+                    : options.preconditioner == Preconditioner::Jacobi ? "jacobi-cg"
+                                                                       : "block-jacobi-cg";
+      report.why = "asked for";
+      return runCg(options.preconditioner, b, x, progress);
+    case SolverKind::Factorised:
+      report.kind = "factorised";
+      report.why = "asked for";
+      return runFactorised(b, x, progress);
+    case SolverKind::Multigrid: {
+      report.kind = "multigrid-pcg";
+      const KrylovResult result = runMultigrid(b, x, 1000, progress);
+      report.why = "asked for; degrees of freedom per level " + multigrid->describe();
+      return result;
+    }
+    case SolverKind::Auto:
+      break;
+  }
+  return runAuto(b, x, report, progress);
+}
+
+KrylovResult StaticSolver::State::runAuto(const std::vector<double>& b, std::vector<double>& x, SolveReport& report,
+                                          const Progress& progress) {
+  const int dofs = op.dofs() - op.fixedCount();
+  double softest = 0;
+  double stiffest = 0;
+  for (const double E : op.body().E_Pa) {
+    if (E == 0) continue;
+    softest = softest == 0 ? E : std::min(softest, E);
+    stiffest = std::max(stiffest, E);
+  }
+  const double contrast = stiffest / softest;
+  std::ostringstream why;
+  why << "auto, " << dofs << " degrees of freedom, moduli within a factor of " << contrast << ", Poisson's ratio "
+      << op.body().poisson << ": ";
+  const bool small = dofs <= directSize;
+  const bool hard = contrast >= hardContrast || op.body().poisson >= hardPoisson;
+  if (small || (hard && dofs <= factorisedLimit)) {
+    why << (small ? "small enough to factorise at once" : "hard for iteration and small enough to factorise");
+    report.kind = "factorised";
+    report.why = why.str();
+    return runFactorised(b, x, progress);
+  }
+  KrylovResult result;
+  int spent = 0;
+  if (!multigridFailed) {
+    result = runMultigrid(b, x, multigridLimit, progress);
+    spent = result.iterations;
+    report.kind = "multigrid-pcg";
+    why << "multigrid (" << multigrid->describe() << ")";
+    report.why = why.str();
+    if (result.status == SolveStatus::Converged || options.iterations > 0) return result;
+    multigridFailed = true;
+  }
+  why << ", but multigrid " << describe(result.status) << " after " << spent << " iterations at residual "
+      << result.residual;
+  std::vector<double> y;
+  KrylovResult second;
+  if (dofs <= factorisedLimit) {
+    why << "; factorised";
+    report.kind = "factorised";
+    second = runFactorised(b, y, progress);
+  } else {
+    why << "; block-Jacobi conjugate gradients";
+    report.kind = "block-jacobi-cg";
+    second = runCg(Preconditioner::BlockJacobi, b, y, progress);
+  }
+  report.why = why.str();
+  second.iterations += spent;
+  if (!(second.residual < result.residual)) return result;
+  x.swap(y);
+  return second;
+}
 
 StaticSolver::StaticSolver(const VoxelBody& body, const Supports& supports, const SolverOptions& options,
                            const Progress&) {
@@ -95,6 +239,14 @@ StaticSolver::StaticSolver(const VoxelBody& body, const Supports& supports, cons
   if (options.iterations < 0) throw BadArgument("the solver's iteration limit is negative");
   state_ = std::make_unique<State>(body, supports, options);
   requireSupported(state_->op.mesh(), supports);
+  const int dofs = state_->op.dofs() - state_->op.fixedCount();
+  if (options.kind == SolverKind::Factorised && dofs > factorisedLimit) {
+    std::ostringstream what;
+    what << "the factorised solver was asked for with " << dofs << " degrees of freedom; it would take about "
+         << Factorisation::expectedBytes(dofs) / 1e9 << " GB. It is offered up to " << factorisedLimit
+         << ": use multigrid or auto, or larger cells";
+    throw BadInput(what.str());
+  }
 }
 StaticSolver::~StaticSolver() = default;
 StaticSolver::StaticSolver(StaticSolver&&) noexcept = default;
@@ -127,8 +279,7 @@ Solution StaticSolver::solve(const NodalField& f_N, const Progress& progress) {
     std::vector<double> right(s.op.lattice().size());
     std::vector<double> x;
     s.op.toSlots(b / scale, right.data());
-    const KrylovResult result = s.runCg(s.options.preconditioner, right, x, progress);
-    solution.report.kind = "cg";
+    const KrylovResult result = s.run(right, x, solution.report, progress);
     solution.report.status = result.status;
     solution.report.iterations = result.iterations;
     solution.report.residual = result.residual;

@@ -1,0 +1,109 @@
+#include "mechanics/multigrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/parallel.h"
+#include "mechanics/factorisation.h"
+#include "mechanics/multigrid_level.h"
+
+namespace glisson::mechanics {
+namespace {
+
+constexpr std::size_t chunk = 32768;
+
+}  // namespace
+
+struct Multigrid::State {
+  MultigridOptions options;
+  std::vector<MultigridLevel> levels;
+  std::unique_ptr<Factorisation> coarsest;
+  std::vector<double> right, left;
+
+  void cycle(std::size_t l) {
+    MultigridLevel& level = levels[l];
+    if (l + 1 == levels.size()) {
+      std::copy(level.r.begin(), level.r.end(), right.begin());
+      coarsest->solve(right.data(), left.data());
+      std::transform(left.begin(), left.end(), level.x.begin(), [](double v) { return static_cast<float>(v); });
+      return;
+    }
+    MultigridLevel& next = levels[l + 1];
+    level.smooth(true, options.degree, options.smoothed, true);
+    restrictTo(*next.A.lattice, *level.A.lattice, level.halved, level.r.data(), next.r.data());
+    next.A.project(next.r.data());
+    cycle(l + 1);
+    prolongTo(*level.A.lattice, *next.A.lattice, level.halved, next.x.data(), level.inverseDiagonal.data(),
+              level.d.data());
+    level.A.apply(level.d.data(), level.y.data());
+    parallelChunks(level.x.size(), chunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        level.x[i] += level.d[i];
+        level.r[i] -= level.y[i];
+      }
+    });
+    level.smooth(false, options.degree, options.smoothed, false);
+  }
+};
+
+Multigrid::Multigrid(const VoxelOperator& op, const MultigridOptions& options) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.options = options;
+  const VoxelBody& body = op.body();
+  // Float needs numbers near 1: moduli relative to the stiffest, edges to their geometric mean.
+  const double unitE = *std::max_element(body.E_Pa.begin(), body.E_Pa.end());
+  const double unitH = std::cbrt(body.h_m.prod());
+  LevelGeometry finest;
+  finest.cells = body.cells;
+  finest.h = body.h_m / unitH;
+  finest.E = body.E_Pa;
+  for (double& E : finest.E) E /= unitE;
+  s.levels.push_back(makeLevel(std::move(finest), op.element(), body.poisson));
+  MultigridLevel& first = s.levels.front();
+  first.exact.fixed = op.lattice().fixed;
+  for (auto spring : op.lattice().springs) {
+    for (double& k : spring.k) k /= unitE * unitH;
+    first.exact.springs.push_back(spring);
+  }
+  first.finish();
+  while (s.levels.back().dofs > options.coarsestDofs && s.levels.back().geometry.cells.maxCoeff() > 1) {
+    MultigridLevel next = coarsen(s.levels.back(), op.element(), body.poisson);
+    next.finish();
+    MultigridLevel& last = s.levels.back();
+    last.exact = {};
+    last.geometry.E = {};
+    s.levels.push_back(std::move(next));
+  }
+  MultigridLevel& last = s.levels.back();
+  s.coarsest = std::make_unique<Factorisation>(last.exact, last.K0);
+  s.right.resize(last.A.size());
+  s.left.resize(last.A.size());
+}
+
+Multigrid::~Multigrid() = default;
+Multigrid::Multigrid(Multigrid&&) noexcept = default;
+Multigrid& Multigrid::operator=(Multigrid&&) noexcept = default;
+
+void Multigrid::cycle(const std::vector<double>& r, std::vector<double>& z) {
+  MultigridLevel& top = state_->levels.front();
+  parallelChunks(r.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) top.r[i] = static_cast<float>(r[i]);
+  });
+  state_->cycle(0);
+  parallelChunks(r.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) z[i] = top.x[i];
+  });
+}
+
+int Multigrid::levels() const {
+  return static_cast<int>(state_->levels.size());
+}
+
+std::string Multigrid::describe() const {
+  std::ostringstream out;
+  for (std::size_t l = 0; l < state_->levels.size(); ++l) out << (l == 0 ? "" : " > ") << state_->levels[l].dofs;
+  return out.str();
+}
+
+}  // namespace glisson::mechanics

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mechanics/voxel_operator.h"
+
+namespace glisson::mechanics {
+
+struct MultigridOptions {
+  int degree = 4;           ///< of the Chebyshev smoother, before and after each coarse correction
+  double smoothed = 16;     ///< the smoother acts on eigenvalues of D⁻¹K in [λmax / smoothed, λmax]
+  int coarsestDofs = 1500;  ///< factorised at or below this size
+};
+
+/// One V-cycle as a preconditioner, in float. Coarse levels take the mean of the moduli (empty = 0) and rebuild the
+/// element; springs are restricted by row sums; only axes whose cells are shorter than 1.5 × the shortest are halved,
+/// so flat or long cells become cubes first. The coarsest level is factorised in double.
+class Multigrid {
+ public:
+  explicit Multigrid(const VoxelOperator& op, const MultigridOptions& options = {});
+  ~Multigrid();
+  Multigrid(Multigrid&&) noexcept;
+  Multigrid& operator=(Multigrid&&) noexcept;
+
+  /// z ≈ K⁻¹ r up to a constant factor, row storage; z is 0 at fixed degrees of freedom. Same bits with any number of
+  /// threads. Not for several threads at once.
+  void cycle(const std::vector<double>& r, std::vector<double>& z);
+
+  int levels() const;
+  /// "221 133 → 28 890 → ..." degrees of freedom per level.
+  std::string describe() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace glisson::mechanics

@@ -1,0 +1,247 @@
+#include "mechanics/multigrid_level.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "base/random.h"
+
+namespace glisson::mechanics {
+namespace {
+
+constexpr std::size_t chunk = 32768;
+
+/// A fixed node between two coarse ones holds both back like an element of its own: measured best near 1.5 × its
+/// diagonal.
+constexpr double fixedAsSpring = 1.5;
+
+template <class F>
+void forRange(std::size_t n, const F& f) {
+  parallelChunks(n, chunk, f);
+}
+
+/// Sum of the moduli of the cells around each node slot.
+std::vector<double> modulusAround(const LatticeOperator<double>& A) {
+  const RowLattice& L = *A.lattice;
+  std::vector<double> sum(L.nodeSlots(), 0.0);
+  for (int k = 0; k < L.cells().z(); ++k)
+    for (int j = 0; j < L.cells().y(); ++j) {
+      const RowLattice::Row& row = L.cellRow(j, k);
+      if (row.length == 0) continue;
+      for (int r = 0; r < 4; ++r) {
+        double* out = sum.data() + L.slot(row.begin, j + (r & 1), k + (r >> 1));
+        const double* E = A.E.data() + row.offset;
+        for (int i = 0; i < row.length; ++i) out[i] += E[i];
+        for (int i = 0; i < row.length; ++i) out[i + 1] += E[i];
+      }
+    }
+  return sum;
+}
+
+/// Calls f(slot, i, j, k) for each node slot.
+template <class F>
+void forNodes(const RowLattice& L, const F& f) {
+  for (int k = 0; k <= L.cells().z(); ++k)
+    for (int j = 0; j <= L.cells().y(); ++j) {
+      const RowLattice::Row& row = L.nodeRow(j, k);
+      for (int i = 0; i < row.length; ++i) f(row.offset + static_cast<std::size_t>(i), row.begin + i, j, k);
+    }
+}
+
+/// Calls f(coarse slot, weight) for the coarse nodes that a fine node interpolates from.
+template <class F>
+void forParents(const RowLattice& coarse, const Halved& halved, int i, int j, int k, const F& f) {
+  const Parents is(i, halved[0]);
+  const Parents js(j, halved[1]);
+  const Parents ks(k, halved[2]);
+  for (int c = 0; c < ks.count; ++c)
+    for (int b = 0; b < js.count; ++b)
+      for (int a = 0; a < is.count; ++a) {
+        const auto ua = static_cast<std::size_t>(a);
+        const auto ub = static_cast<std::size_t>(b);
+        const auto uc = static_cast<std::size_t>(c);
+        f(coarse.slot(is.node[ua], js.node[ub], ks.node[uc]), is.weight[ua] * js.weight[ub] * ks.weight[uc]);
+      }
+}
+
+/// r −= y; d = a d + b D⁻¹ r; x += d (or x = d).
+void chebyshevStep(std::size_t begin, std::size_t end, float a, float b, const float* inverseDiagonal, const float* y,
+                   float* r, float* d, float* x) {
+#pragma GCC ivdep
+  for (std::size_t i = begin; i < end; ++i) {
+    r[i] -= y[i];
+    d[i] = a * d[i] + b * inverseDiagonal[i] * r[i];
+    x[i] += d[i];
+  }
+}
+
+}  // namespace
+
+MultigridLevel makeLevel(LevelGeometry geometry, HexElement element, double poisson) {
+  MultigridLevel level;
+  level.geometry = std::move(geometry);
+  level.K0 = hexStiffness(element, poisson, level.geometry.h);
+  level.exact.lattice = std::make_shared<RowLattice>(level.geometry.cells, level.geometry.E);
+  level.exact.blocks = RowBlocks<double>(walshBlocks(level.K0));
+  level.exact.E = cellSlotsOf<double>(*level.exact.lattice, level.geometry.E, 1.0);
+  return level;
+}
+
+void MultigridLevel::finish() {
+  const RowLattice& L = *exact.lattice;
+  const std::size_t n = L.nodeSlots();
+  A.lattice = exact.lattice;
+  A.blocks = RowBlocks<float>(walshBlocks(K0));
+  A.E.assign(exact.E.begin(), exact.E.end());
+  A.fixed = exact.fixed;
+  A.springs.clear();
+  for (const auto& s : exact.springs) {
+    auto& f = A.springs.emplace_back();
+    f.slot = s.slot;
+    for (std::size_t v = 0; v < 6; ++v) f.k[v] = static_cast<float>(s.k[v]);
+  }
+  const std::vector<double> around = modulusAround(exact);
+  std::vector<double> diagonal(3 * n);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t s = 0; s < n; ++s)
+      diagonal[c * n + s] = around[s] * K0(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(c));
+  for (const auto& [slot, k] : exact.springs) {
+    diagonal[slot] += k[0];
+    diagonal[n + slot] += k[3];
+    diagonal[2 * n + slot] += k[5];
+  }
+  for (const std::size_t f : exact.fixed) diagonal[f] = 0;
+  inverseDiagonal.resize(3 * n);
+  dofs = 0;
+  for (std::size_t i = 0; i < 3 * n; ++i) {
+    inverseDiagonal[i] = diagonal[i] > 0 ? static_cast<float>(1 / diagonal[i]) : 0.0F;
+    dofs += diagonal[i] > 0;
+  }
+  for (std::vector<float>* v : {&x, &r, &d, &y}) v->assign(3 * n, 0.0F);
+  estimateLambda();
+}
+
+void MultigridLevel::estimateLambda() {
+  // λmax(D⁻¹K) is at most the largest over single cells, whatever the moduli; the power method tightens it.
+  const Eigen::VectorXd scale = K0.diagonal().cwiseSqrt().cwiseInverse();
+  const double bound = std::max(3.0, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+                                         scale.asDiagonal() * K0 * scale.asDiagonal(), Eigen::EigenvaluesOnly)
+                                         .eigenvalues()[23]);
+  Random random(17);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    x[i] = inverseDiagonal[i] != 0 ? static_cast<float>(random.uniform(-1, 1)) : 0.0F;
+  double estimate = 0;
+  for (int step = 0; step < 12; ++step) {
+    A.apply(x.data(), y.data());
+    // Rayleigh quotient in the D inner product: (xᵀ K x) / (xᵀ D x).
+    const double xKx = parallelSum(x.size(), chunk, [&](std::size_t begin, std::size_t end) {
+      double s = 0;
+      for (std::size_t i = begin; i < end; ++i) s += static_cast<double>(x[i]) * y[i];
+      return s;
+    });
+    const double xDx = parallelSum(x.size(), chunk, [&](std::size_t begin, std::size_t end) {
+      double s = 0;
+      for (std::size_t i = begin; i < end; ++i)
+        if (inverseDiagonal[i] != 0) s += static_cast<double>(x[i]) * x[i] / inverseDiagonal[i];
+      return s;
+    });
+    if (!(xDx > 0)) break;
+    estimate = std::max(estimate, xKx / xDx);
+    const auto shrink = static_cast<float>(estimate > 0 ? 1 / estimate : 1);
+    forRange(x.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) x[i] = shrink * inverseDiagonal[i] * y[i];
+    });
+  }
+  lambdaMax = estimate > 0 ? std::min(1.15 * estimate, bound) : bound;
+  std::fill(x.begin(), x.end(), 0.0F);
+}
+
+void MultigridLevel::smooth(bool fromZero, int degree, double smoothed, bool keepResidual) {
+  const double upper = lambdaMax;
+  const double lower = lambdaMax / smoothed;
+  const double theta = 0.5 * (upper + lower);
+  const double delta = 0.5 * (upper - lower);
+  const double sigma = theta / delta;
+  double rho = 1 / sigma;
+  const auto first = static_cast<float>(1 / theta);
+  forRange(x.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      d[i] = first * inverseDiagonal[i] * r[i];
+      x[i] = fromZero ? d[i] : x[i] + d[i];
+    }
+  });
+  for (int step = 1; step < degree; ++step) {
+    const double next = 1 / (2 * sigma - rho);
+    const auto a = static_cast<float>(next * rho);
+    const auto b = static_cast<float>(2 * next / delta);
+    rho = next;
+    A.apply(d.data(), y.data());
+    forRange(x.size(), [&](std::size_t begin, std::size_t end) {
+      chebyshevStep(begin, end, a, b, inverseDiagonal.data(), y.data(), r.data(), d.data(), x.data());
+    });
+  }
+  if (!keepResidual) return;
+  A.apply(d.data(), y.data());
+  forRange(x.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) r[i] -= y[i];
+  });
+}
+
+MultigridLevel coarsen(MultigridLevel& fine, HexElement element, double poisson) {
+  const LevelGeometry& g = fine.geometry;
+  double shortest = 0;
+  for (int c = 0; c < 3; ++c)
+    if (g.cells[c] > 1 && (shortest == 0 || g.h[c] < shortest)) shortest = g.h[c];
+  LevelGeometry next;
+  next.h = g.h;
+  for (int c = 0; c < 3; ++c) {
+    fine.halved[static_cast<std::size_t>(c)] = g.cells[c] > 1 && g.h[c] < 1.5 * shortest;
+    if (fine.halved[static_cast<std::size_t>(c)]) next.h[c] *= 2;
+  }
+  next.cells = coarserCells(g.cells, fine.halved);
+  next.E = coarserModuli(g.cells, g.E, fine.halved);
+  MultigridLevel coarse = makeLevel(std::move(next), element, poisson);
+
+  const RowLattice& F = *fine.exact.lattice;
+  const RowLattice& C = *coarse.exact.lattice;
+  const std::size_t nf = F.nodeSlots();
+  const std::size_t nc = C.nodeSlots();
+  const std::vector<double> around = modulusAround(fine.exact);
+  std::vector<char> fixed(3 * nf, 0);
+  for (const std::size_t f : fine.exact.fixed) fixed[f] = 1;
+  std::vector<char> reached(3 * nc, 0);
+  std::vector<char> coincident(3 * nc, 0);
+  std::vector<std::array<double, 6>> spring(nc, std::array<double, 6>{});
+  std::vector<char> sprung(nc, 0);
+  std::vector<std::size_t> springOf(nf, fine.exact.springs.size());
+  for (std::size_t s = 0; s < fine.exact.springs.size(); ++s) springOf[fine.exact.springs[s].slot] = s;
+  forNodes(F, [&](std::size_t slot, int i, int j, int k) {
+    if (around[slot] == 0) return;
+    forParents(C, fine.halved, i, j, k, [&](std::size_t parent, double weight) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (fixed[c * nf + slot] == 0) {
+          reached[c * nc + parent] = 1;
+        } else if (weight == 1) {
+          coincident[c * nc + parent] = 1;
+        } else {
+          const double diagonal = around[slot] * fine.K0(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(c));
+          spring[parent][c == 0 ? 0 : c == 1 ? 3 : 5] += fixedAsSpring * weight * diagonal;
+          sprung[parent] = 1;
+        }
+      }
+      if (springOf[slot] == fine.exact.springs.size()) return;
+      const auto& k6 = fine.exact.springs[springOf[slot]].k;
+      for (std::size_t v = 0; v < 6; ++v) spring[parent][v] += weight * k6[v];
+      sprung[parent] = 1;
+    });
+  });
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t s = 0; s < nc; ++s)
+      if (coincident[c * nc + s] != 0 || reached[c * nc + s] == 0) coarse.exact.fixed.push_back(c * nc + s);
+  for (std::size_t s = 0; s < nc; ++s)
+    if (sprung[s] != 0) coarse.exact.springs.push_back({s, spring[s]});
+  return coarse;
+}
+
+}  // namespace glisson::mechanics

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "mechanics/grid_transfer.h"
+#include "mechanics/hex_element.h"
+#include "mechanics/lattice_operator.h"
+
+namespace glisson::mechanics {
+
+/// What the next coarser level is made from, scaled so that moduli and edges are of order 1.
+struct LevelGeometry {
+  Eigen::Vector3i cells = Eigen::Vector3i::Zero();
+  Eigen::Vector3d h = Eigen::Vector3d::Zero();
+  std::vector<double> E;
+};
+
+/// One level of the hierarchy: operator, smoother, work arrays. Arrays have A.size() values.
+struct MultigridLevel {
+  LevelGeometry geometry;
+  HexMatrix K0;
+  LatticeOperator<double> exact;  ///< kept for set-up and for the coarsest level only
+  LatticeOperator<float> A;
+  Halved halved{};                     ///< how the next level is made from this one
+  std::vector<float> inverseDiagonal;  ///< 0 at fixed degrees of freedom and slots without a node
+  double lambdaMax = 0;                ///< largest eigenvalue of D⁻¹ A, estimated from above
+  int dofs = 0;                        ///< active
+  std::vector<float> x, r, d, y;
+
+  /// Diagonal, float copies and the eigenvalue estimate, from geometry and exact.{springs, fixed}.
+  void finish();
+  /// x = smoother applied to r from 0, or continued from x; r becomes the residual; degree applications of A.
+  void smooth(bool fromZero, int degree, double smoothed, bool keepResidual);
+
+ private:
+  void estimateLambda();
+};
+
+/// Lattice, moduli and element of a level; springs and fixed degrees of freedom still empty.
+MultigridLevel makeLevel(LevelGeometry geometry, HexElement element, double poisson);
+
+/// The next coarser level of `fine`; fine.halved is set. Fixed: coarse degrees of freedom that coincide with a fixed
+/// one, or whose interpolation reaches no free one. Fixed nodes between coarse nodes become springs of their own
+/// stiffness.
+MultigridLevel coarsen(MultigridLevel& fine, HexElement element, double poisson);
+
+}  // namespace glisson::mechanics
