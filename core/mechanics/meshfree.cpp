@@ -130,7 +130,7 @@ Eigen::VectorXd MeshfreeModel::nearest(const NodalField& u_m) const {
   if (factor.status() != SolveStatus::Converged)
     throw SolverFailed("the mesh-free mass matrix has no Cholesky factor; use fewer frames", 0, 1.0, 0.0);
   Eigen::VectorXd q;
-  factor.solve(M_, b, q, 1e-12);
+  factor.solve([this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y.noalias() = M_ * x; }, b, q, 1e-12);
   return q;
 }
 
@@ -144,6 +144,7 @@ Solution MeshfreeModel::solveStatic(const NodalField& f_N, const SolverOptions& 
     throw BadInput("a mesh-free model has no multigrid solver; choose auto, factorised or cg");
   requireSupported(voxels_->mesh(), supports_);
   const Eigen::VectorXd b = load(f_N);
+  const VectorMap apply = [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y.noalias() = K_ * x; };
   Eigen::VectorXd q;
   SolveReport report;
   const bool factorise =
@@ -151,7 +152,7 @@ Solution MeshfreeModel::solveStatic(const NodalField& f_N, const SolverOptions& 
   if (factorise) {
     const DenseCholesky factor(K_);
     if (factor.status() == SolveStatus::Converged) {
-      report = factor.solve(K_, b, q, options.tolerance);
+      report = factor.solve(apply, b, q, options.tolerance);
     } else {
       report.kind = "factorised";
       report.status = factor.status();
@@ -165,7 +166,6 @@ Solution MeshfreeModel::solveStatic(const NodalField& f_N, const SolverOptions& 
     VectorMap preconditioner;
     if (kind == Preconditioner::Jacobi) preconditioner = jacobi(K_);
     if (kind == Preconditioner::BlockJacobi) preconditioner = blockJacobi(K_, borders_);
-    const auto apply = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y.noalias() = K_ * x; };
     report = conjugateGradients(apply, preconditioner, b, q, options.iterations > 0 ? options.iterations : 10 * dofs(),
                                 options.tolerance, progress);
     report.why = automatic ? "block-Jacobi CG: more than 10000 degrees of freedom" : "asked for";

@@ -185,8 +185,8 @@ void DenseCholesky::solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x) const {
   x = (scale_.asDiagonal() * x).eval();
 }
 
-SolveReport DenseCholesky::solve(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b, Eigen::VectorXd& x,
-                                 double tolerance) const {
+SolveReport DenseCholesky::solve(const VectorMap& A, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance,
+                                 double enough) const {
   const auto start = std::chrono::steady_clock::now();
   SolveReport report;
   report.kind = "factorised";
@@ -194,18 +194,19 @@ SolveReport DenseCholesky::solve(const Eigen::SparseMatrix<double>& A, const Eig
   const double norm = b.norm();
   x = Eigen::VectorXd::Zero(b.size());
   if (norm > 0.0 && std::isfinite(norm)) {
-    Eigen::VectorXd r = b, best = x;
+    Eigen::VectorXd r = b, best = x, Ax(b.size());
     double residual = 1.0;
     for (int pass = 0; pass < 4; ++pass) {
       Eigen::MatrixXd correction;
       solve(r, correction);
       const Eigen::VectorXd candidate = best + correction.col(0);
-      r = b - A * candidate;
+      A(candidate, Ax);
+      r = b - Ax;
       const double now = r.norm() / norm;
       if (!(now < 0.5 * residual) && pass > 0) break;
       best = candidate, residual = now;
       ++report.iterations;
-      if (now < 1e-15) break;
+      if (now <= enough) break;
     }
     x = best;
     report.residual = residual;

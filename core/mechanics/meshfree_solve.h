@@ -35,9 +35,10 @@ class DenseCholesky {
   SolveStatus status() const { return status_; }
   /// x = A⁻¹ b (one column or many). Precondition: status() == Converged.
   void solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x) const;
-  /// Solve and refine against A until the true residual stops falling (three times at most).
-  SolveReport solve(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b, Eigen::VectorXd& x,
-                    double tolerance) const;
+  /// Solve, then refine against A (y = A x) until the true residual is at most `enough` or stops falling (three times
+  /// at most). Converged where it is at most `tolerance`.
+  SolveReport solve(const VectorMap& A, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance,
+                    double enough = 1e-15) const;
 
  private:
   Eigen::MatrixXd L_;

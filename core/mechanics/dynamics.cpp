@@ -1,0 +1,175 @@
+#include "mechanics/dynamics.h"
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace glisson::mechanics {
+namespace {
+
+void checkOptions(const DynamicOptions& o) {
+  const auto refuse = [](const std::string& what, double value) {
+    throw BadInput("dynamics: " + what + ", not " + std::to_string(value));
+  };
+  if (!(o.h_s > 0.0) || !std::isfinite(o.h_s)) refuse("the time step must be positive", o.h_s);
+  if (!(o.end_s >= 0.0) || !std::isfinite(o.end_s)) refuse("the end time must be 0 or more", o.end_s);
+  if (!(o.rayleighAlpha_1_s >= 0.0)) refuse("Rayleigh alpha must be 0 or more", o.rayleighAlpha_1_s);
+  if (!(o.rayleighBeta_s >= 0.0)) refuse("Rayleigh beta must be 0 or more", o.rayleighBeta_s);
+  if (!(o.ramp_s >= 0.0)) refuse("the ramp must be 0 or more seconds", o.ramp_s);
+  if (o.end_s / o.h_s > 1e9) refuse("at most 1e9 steps: use a larger time step", o.end_s / o.h_s);
+}
+
+int severity(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::Converged:
+      return 0;
+    case SolveStatus::StoppedAtLimit:
+      return 1;
+    case SolveStatus::Indefinite:
+      return 2;
+    case SolveStatus::NotFinite:
+      break;
+  }
+  return 3;
+}
+
+/// Keeps the report with the largest residual, the most severe status, and the sum of seconds.
+void merge(SolveReport& worst, const SolveReport& step, bool first) {
+  if (first) {
+    worst = step;
+    return;
+  }
+  const double seconds = worst.seconds + step.seconds;
+  const SolveStatus status = severity(step.status) > severity(worst.status) ? step.status : worst.status;
+  if (!(step.residual <= worst.residual)) worst = step;
+  worst.status = status;
+  worst.seconds = seconds;
+}
+
+Eigen::VectorXd flat(const NodalField& field) {
+  return Eigen::Map<const Eigen::VectorXd>(field.data(), field.size());
+}
+
+NodalField nodal(const Eigen::VectorXd& x) {
+  return Eigen::Map<const NodalField>(x.data(), 3, x.size() / 3);
+}
+
+}  // namespace
+
+Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eigen::VectorXd& q0,
+                     const Eigen::VectorXd& v0, const DynamicOptions& options, const Progress& progress) {
+  checkOptions(options);
+  const Eigen::Index n = system.size();
+  if (f.size() != n || q0.size() != n || v0.size() != n)
+    throw BadArgument("integrate: vectors of " + std::to_string(f.size()) + ", " + std::to_string(q0.size()) + ", " +
+                      std::to_string(v0.size()) + " values for " + std::to_string(n) + " degrees of freedom");
+  for (const Eigen::Index p : options.probes)
+    if (p < 0 || p >= n) throw BadArgument("integrate: probe " + std::to_string(p) + " of " + std::to_string(n));
+  const double h = options.h_s, alpha = options.rayleighAlpha_1_s, beta = options.rayleighBeta_s;
+  const auto steps = static_cast<int>(std::ceil(options.end_s / h - 1e-9));
+  system.prepare(1.0 + h * alpha, h * (h + beta));
+
+  Trajectory out;
+  DynamicState state{0, 0.0, q0, v0, Eigen::VectorXd::Zero(n)};
+  Eigen::VectorXd Kq(n), Kv(n), Mv(n), dv = Eigen::VectorXd::Zero(n);
+  const double fNorm = f.norm();
+  const auto loadAt = [&](double t) { return options.ramp_s > 0.0 ? std::min(1.0, t / options.ramp_s) : 1.0; };
+  const auto observe = [&](double factor) {
+    system.applyK(state.q, Kq);
+    system.applyM(state.v, Mv);
+    out.times_s.push_back(state.t_s);
+    out.energies.push_back({0.5 * state.v.dot(Mv), 0.5 * state.q.dot(Kq), -factor * f.dot(state.q)});
+    if (!options.probes.empty()) {
+      Eigen::VectorXd seen(static_cast<Eigen::Index>(options.probes.size()));
+      for (Eigen::Index i = 0; i < seen.size(); ++i) seen[i] = state.q[options.probes[static_cast<std::size_t>(i)]];
+      out.probes.push_back(std::move(seen));
+    }
+    if (options.keepEvery > 0 && state.step % options.keepEvery == 0) out.kept.push_back(state);
+    out.unbalance = fNorm > 0.0 ? (factor * f - Kq).norm() / fNorm : 0.0;
+  };
+  observe(loadAt(0.0));
+  while (state.step < steps) {
+    progress.report(static_cast<double>(state.step) / steps, "time stepping");
+    // The load at the end of the step, as every other force in the implicit scheme.
+    const double factor = loadAt((state.step + 1) * h);
+    system.applyK(state.v, Kv);
+    const Eigen::VectorXd b = h * (factor * f - Kq - (h + beta) * Kv - alpha * Mv);
+    const SolveReport report = system.solve(b, dv);
+    merge(out.worst, report, out.steps == 0);
+    if (!dv.allFinite()) {
+      out.worst.status = SolveStatus::NotFinite;
+      break;
+    }
+    state.a = dv / h;
+    state.v += dv;
+    state.q += h * state.v;
+    state.t_s = ++state.step * h;
+    out.steps = state.step;
+    observe(factor);
+    const double qNorm = state.q.norm();
+    if (options.stopWhenSteady > 0.0 && factor == 1.0 && out.unbalance <= options.stopWhenSteady &&
+        h * state.v.norm() <= options.stopWhenSteady * qNorm) {
+      out.steady = true;
+      break;
+    }
+    if (options.onStep && !options.onStep(state)) break;
+  }
+  if (out.steps == 0) out.worst.status = SolveStatus::Converged;
+  out.last = std::move(state);
+  progress.report(1.0, "time stepping");
+  return out;
+}
+
+DynamicSolution solveDynamic(const Problem& problem, const DynamicOptions& dynamic, const SolverOptions& solver,
+                             const Progress& progress) {
+  const auto voxels = std::make_shared<const VoxelOperator>(problem.body, solver.element, problem.supports);
+  const int nodes = voxels->mesh().nodeCount();
+  const NodalField f_N = problem.f_N.size() > 0 ? problem.f_N : NodalField::Zero(3, nodes);
+  if (f_N.cols() != nodes)
+    throw BadArgument("solveDynamic: a load of " + std::to_string(f_N.cols()) + " columns for " +
+                      std::to_string(nodes) + " nodes");
+  if (!f_N.allFinite()) throw BadInput("the load has a value that is not finite");
+  // Prescribed displacements are there from the start; the rest of the body follows.
+  const NodalField& lift_m = voxels->prescribed_m();
+  NodalField free_N = f_N - voxels->applyFree(lift_m) + voxels->springForce(lift_m);
+  voxels->project(free_N);
+
+  VoxelSystem system(voxels, solver);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system.size());
+  DynamicSolution out;
+  out.trajectory = integrate(system, flat(free_N), zero, zero, dynamic, progress);
+  const DynamicState& last = out.trajectory.last;
+  Solution& s = out.solution;
+  s.u_m = nodal(last.q) + lift_m;
+  const NodalField v = nodal(last.v);
+  const NodalField spring_N = voxels->springForce(s.u_m);
+  const NodalField internal_N = voxels->applyFree(s.u_m);
+  s.energy_J = 0.5 * s.u_m.cwiseProduct(internal_N - spring_N).sum();
+  const NodalField rest_N = internal_N - spring_N - f_N +
+                            voxels->applyMass(nodal(last.a) + dynamic.rayleighAlpha_1_s * v) +
+                            dynamic.rayleighBeta_s * (voxels->applyFree(v) - voxels->springForce(v));
+  s.reaction_N = spring_N;
+  for (int node = 0; node < nodes; ++node)
+    for (int c = 0; c < 3; ++c)
+      if (voxels->isFixed(node, c)) s.reaction_N(c, node) += rest_N(c, node);
+  s.report = out.trajectory.worst;
+  return out;
+}
+
+DynamicSolution solveDynamic(const MeshfreeModel& model, const DynamicOptions& dynamic, const SolverOptions& solver,
+                             const Progress& progress) {
+  MatrixSystem system(model.K(), model.M(), solver, model.borders());
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system.size());
+  DynamicSolution out;
+  out.trajectory = integrate(system, model.load(model.load_N()), zero, zero, dynamic, progress);
+  const DynamicState& last = out.trajectory.last;
+  const VoxelOperator& voxels = model.voxels();
+  const NodalField v = model.expandRate(last.v);
+  const NodalField inertia_N = voxels.applyMass(model.expandRate(last.a) + dynamic.rayleighAlpha_1_s * v) +
+                               dynamic.rayleighBeta_s * (voxels.applyFree(v) - voxels.springForce(v));
+  out.solution = model.solution(last.q, model.load_N() - inertia_N);
+  out.solution.report = out.trajectory.worst;
+  return out;
+}
+
+}  // namespace glisson::mechanics

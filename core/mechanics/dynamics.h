@@ -1,0 +1,127 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "base/progress.h"
+#include "mechanics/meshfree.h"
+#include "mechanics/meshfree_solve.h"
+#include "mechanics/problem.h"
+#include "mechanics/voxel_operator.h"
+
+namespace glisson::mechanics {
+
+/// M q̈ + C q̇ + K q = f with M, K symmetric, M positive definite, K positive semi-definite.
+class DynamicSystem {
+ public:
+  virtual ~DynamicSystem() = default;
+  virtual Eigen::Index size() const = 0;
+  virtual void applyK(const Eigen::VectorXd& x, Eigen::VectorXd& y) const = 0;  ///< N for m
+  virtual void applyM(const Eigen::VectorXd& x, Eigen::VectorXd& y) const = 0;  ///< kg
+  /// Makes ready to solve (m M + k K) x = b, m > 0, k ≥ 0; called once for many solves. Throws SolverFailed where that
+  /// matrix has no factor.
+  virtual void prepare(double m, double k) = 0;
+  /// x: the start on entry where its size fits, the solution on return.
+  virtual SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const = 0;
+};
+
+/// Stored matrices: a mesh-free model, or any small system. SolverOptions::kind Auto and Factorised: dense Cholesky,
+/// made once in prepare; Cg: conjugate gradients from the last solution (iterations = 200 without preconditioner: as
+/// published).
+class MatrixSystem : public DynamicSystem {
+ public:
+  /// borders: diagonal blocks for Preconditioner::BlockJacobi; empty = blocks of 3.
+  MatrixSystem(Eigen::SparseMatrix<double> K_N_m, Eigen::SparseMatrix<double> M_kg, const SolverOptions& options = {},
+               std::vector<int> borders = {});
+  Eigen::Index size() const override { return K_.rows(); }
+  void applyK(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
+  void applyM(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
+  void prepare(double m, double k) override;
+  SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const override;
+
+ private:
+  Eigen::SparseMatrix<double> K_, M_, A_;
+  SolverOptions options_;
+  std::vector<int> borders_;
+  std::unique_ptr<DenseCholesky> factor_;
+  VectorMap preconditioner_;
+};
+
+/// The full voxel FEM, vectors are nodal fields column by column (3 × node + axis), 0 at fixed degrees of freedom.
+/// Solved by CG with the preconditioner of the options (block-Jacobi where they say Auto) from the last solution.
+class VoxelSystem : public DynamicSystem {
+ public:
+  explicit VoxelSystem(std::shared_ptr<const VoxelOperator> voxels, const SolverOptions& options = {});
+  Eigen::Index size() const override { return voxels_->dofs(); }
+  void applyK(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
+  void applyM(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
+  void prepare(double m, double k) override;
+  SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const override;
+
+ private:
+  std::shared_ptr<const VoxelOperator> voxels_;
+  SolverOptions options_;
+  double m_ = 1.0, k_ = 1.0;
+  VectorMap preconditioner_;
+};
+
+struct DynamicState {
+  int step = 0;
+  double t_s = 0.0;
+  Eigen::VectorXd q, v, a;  ///< m, m/s, m/s² (a: change of v over the last step / h)
+};
+
+struct DynamicOptions {
+  double h_s = 1e-3;  ///< time step
+  double end_s = 2.0;
+  double rayleighAlpha_1_s = 0.0;  ///< C = α M + β K
+  double rayleighBeta_s = 0.0;
+  double ramp_s = 0.0;  ///< the load grows linearly over this time; 0 = at once
+  double stopWhenSteady =
+      0.0;  ///< stop where ‖f − K q‖ ≤ this ‖f‖ and ‖h v‖ ≤ this ‖q‖, the load being full; 0 = never
+  int keepEvery = 0;                                ///< keep every n-th state; 0 = none
+  std::vector<Eigen::Index> probes;                 ///< entries of q recorded at every step
+  std::function<bool(const DynamicState&)> onStep;  ///< after every step; false stops
+};
+
+struct StepEnergy {
+  double kinetic_J = 0.0, elastic_J = 0.0;
+  double load_J = 0.0;  ///< potential of the load, −fᵀq
+  double total_J() const { return kinetic_J + elastic_J + load_J; }
+};
+
+struct Trajectory {
+  DynamicState last;
+  std::vector<double> times_s;          ///< 0 and the end of every step
+  std::vector<StepEnergy> energies;     ///< one per time
+  std::vector<Eigen::VectorXd> probes;  ///< one per time, empty without probes
+  std::vector<DynamicState> kept;
+  int steps = 0;
+  bool steady = false;
+  double unbalance = 0.0;  ///< ‖f − K q‖ / ‖f‖ of the last state (0 where f = 0)
+  SolveReport worst;       ///< of the step with the largest residual; its status is the worst of all steps
+};
+
+/// Implicit Euler [baraff1998large] with the complete right-hand side, C = αM + βK:
+///   (M + hC + h²K) Δv = h (f − K q − C v − h K v),  v += Δv,  q += h v.
+/// Unconditionally stable: kinetic + elastic energy + load potential never grows under a constant load. First order in
+/// h. Throws BadInput for h_s ≤ 0, end_s < 0, negative damping, more than 1e9 steps; a step that does not converge is
+/// told in worst, and one with values that are not finite ends the run there.
+Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eigen::VectorXd& q0,
+                     const Eigen::VectorXd& v0, const DynamicOptions& options, const Progress& progress = {});
+
+/// From rest. The solution is the last state: reactions include inertia and damping, energy_J is elastic, report is
+/// that of the worst step.
+struct DynamicSolution {
+  Trajectory trajectory;
+  Solution solution;
+};
+DynamicSolution solveDynamic(const Problem& problem, const DynamicOptions& dynamic, const SolverOptions& solver = {},
+                             const Progress& progress = {});
+DynamicSolution solveDynamic(const MeshfreeModel& model, const DynamicOptions& dynamic,
+                             const SolverOptions& solver = {}, const Progress& progress = {});
+
+}  // namespace glisson::mechanics
