@@ -91,7 +91,7 @@ struct CoilShading {
   }
   double operator()(const Point& p) const {
     const double ring = std::pow(p.x() / 170.0, 2) + std::pow(p.y() / 115.0, 2);
-    return 0.92 + 0.13 * ring + tiltX * p.x() / 170.0 + tiltY * p.y() / 115.0 + tiltZ * p.z() / 100.0;
+    return 0.88 + 0.20 * ring + tiltX * p.x() / 170.0 + tiltY * p.y() / 115.0 + tiltZ * p.z() / 100.0;
   }
 };
 

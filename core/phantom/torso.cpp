@@ -32,7 +32,8 @@ Torso::Torso(std::uint64_t seed) : seed_(seed) {
   fat_mm_ = r.uniform(11.0, 19.0);
   rightDome_ = organ(r, {-64, 0, -12}, {88, 100, 96}, upright, 2.0, 0.02);
   leftDome_ = organ(r, {66, 2, -14}, {84, 96, 80}, upright, 2.0, 0.02);
-  rightLobe_ = organ(r, {-76, 6, -10}, {80, 90, 96}, rotation(0, r.uniform(-4, 10), 0));
+  centralDome_ = organ(r, {0, -6, -34}, {152, 116, 82}, upright, 2.0, 0.02);
+  rightLobe_ = organ(r, {-76, 6, -6}, {84, 92, 104}, rotation(0, r.uniform(-4, 10), 0));
   leftLobe_ = organ(r, {2, -46, 27}, {86, 44, 37}, rotation(r.uniform(-6, 6), r.uniform(-14, -2), r.uniform(-4, 12)),
                     5.0, 0.12);
   caudate_ = organ(r, {-14, 12, 24}, {17, 15, 28}, rotation(0, 0, -20), 2.0);
@@ -48,30 +49,29 @@ Torso::Torso(std::uint64_t seed) : seed_(seed) {
   fissures_.push_back(organ(r, {-26, 2, -12}, {30, 7.0, 9.0}, rotation(0, 0, 16), 2.0));  // porta hepatis
 
   gallbladder_ = organ(r, {-48, -36, -36}, {15, 32, 16}, rotation(28, 0, 16), 3.0, 0.12);
-  stomach_ = organ(r, {66, 4, 30}, {46, 52, 64}, rotation(0, -10, 16), 3.0);
-  antrum_ = organ(r, {34, -38, -38}, {48, 25, 26}, rotation(0, -22, -12));
-  spleen_ = organ(r, {102, 44, 22}, {25, 50, 54}, rotation(12, 10, 24), 3.0, 0.1);
+  stomach_ = organ(r, {62, -14, 22}, {42, 54, 58}, rotation(0, -10, 16), 3.0);
+  antrum_ = organ(r, {36, -46, -24}, {48, 22, 24}, rotation(0, -22, -12));
+  spleen_ = organ(r, {98, 42, 20}, {31, 49, 54}, rotation(12, 10, 24), 3.0, 0.1);
   rightKidney_ = organ(r, {-57, 58, -66}, {27, 25, 52}, rotation(-8, 10, 18), 2.0);
   leftKidney_ = organ(r, {62, 56, -44}, {27, 26, 53}, rotation(-8, -10, -18), 2.0);
   heart_ = organ(r, {28, -42, 88}, {62, 46, 44}, rotation(0, 12, -24));
   leftVentricle_ = organ(r, {46, -32, 88}, {30, 23, 26}, rotation(0, 12, -24), 2.0);
   rightVentricle_ = organ(r, {6, -58, 84}, {34, 18, 24}, rotation(0, 12, -24), 2.0);
   pancreas_ = organ(r, {24, 12, -38}, {52, 11, 14}, rotation(0, -24, 14), 3.0);
-  for (int i = 0; i < 26; ++i) {
-    const Point centre(r.uniform(-70, 112), r.uniform(-74, 10), r.uniform(-140, -52));
-    bowel_.push_back(organ(r, centre, {r.uniform(13, 24), r.uniform(12, 17), r.uniform(13, 20)},
-                           rotation(r.uniform(-40, 40), r.uniform(-40, 40), r.uniform(-90, 90)), 0.0, 0.0));
-  }
+  colon_ = {{{-96, -22, -140}, {-92, -24, -76}, 17.0}, {{-92, -24, -76}, {-60, -62, -80}, 15.0},
+            {{-60, -62, -80}, {14, -70, -82}, 14.0},   {{14, -70, -82}, {84, -50, -36}, 14.0},
+            {{84, -50, -36}, {108, -8, 2}, 15.0},      {{108, -8, 2}, {110, 22, -140}, 12.0}};
+  for (Capsule& piece : colon_) piece.radius_mm *= 1.0 + r.uniform(-0.1, 0.1);
   fitVolume();
   placeVesselRoots();
 }
 
 double Torso::body_mm(const Point& p) const {
-  // Superellipse of exponent 2.4, a little narrower to the head; first-order distance f / |grad f|.
+  // Superellipse of exponent 2.25, a little narrower to the head; first-order distance f / |grad f|.
   const double narrow = 1.0 - 0.0004 * std::max(p.z(), 0.0);
   const double a = halfWidth_mm_ * narrow;
   const double b = halfDepth_mm_ * narrow;
-  constexpr double n = 2.4;
+  constexpr double n = 2.25;
   const double x = std::abs(p.x()) / a;
   const double y = std::abs(p.y()) / b;
   const double xs = std::pow(x, n - 1.0);
@@ -82,7 +82,7 @@ double Torso::body_mm(const Point& p) const {
   const double g = f / sum;  // d f / d(sum) * n
   const double gradient = std::hypot(g * xs / a, g * ys / b);
   const double backGroove = 5.0 * std::exp(-std::pow(p.x() / 15.0, 2)) * smoothStep(40.0, 90.0, p.y());
-  return (f - 1.0) / gradient + backGroove + 2.5 * noise({p.x(), p.y(), 0.5 * p.z()}, 90.0, seed_ + 1);
+  return (f - 1.0) / gradient + backGroove + 4.0 * noise({p.x(), p.y(), 0.4 * p.z()}, 95.0, seed_ + 1);
 }
 
 double Torso::wall_mm(const Point& p) const {
@@ -92,7 +92,7 @@ double Torso::wall_mm(const Point& p) const {
 }
 
 double Torso::diaphragm_mm(const Point& p) const {
-  return smoothMin(dome_mm(rightDome_, p), dome_mm(leftDome_, p), 34.0);
+  return smoothMin(smoothMin(dome_mm(rightDome_, p), dome_mm(leftDome_, p), 26.0), dome_mm(centralDome_, p), 16.0);
 }
 
 Point Torso::cavaCentre(double z_mm) const {
@@ -123,7 +123,7 @@ double Torso::liver_mm(const Point& p) const {
   d = smoothMin(d, caudate_.distance_mm(p), 8.0);
   const double cavity = body_mm(p) + wall_mm(p) + 2.5;
   d = smoothMax(d, cavity, 16.0);
-  d = smoothMax(d, diaphragm_mm(p) + 2.5, 12.0);
+  d = smoothMax(d, diaphragm_mm(p) + 1.5, 5.0);
   d = without(d, spineMass_mm(p), 12.0);
   d = without(d, cava_mm(p) - 0.8, 3.0);
   for (const Ellipsoid& e : fissures_) d = without(d, e.distance_mm(p), 4.0);

@@ -59,14 +59,14 @@ class Torso {
   double liverBottom_mm_ = 0.0;
   Point portalHilum_ = Point::Zero();
   Point hepaticConfluence_ = Point::Zero();
-  Ellipsoid rightDome_, leftDome_;
+  Ellipsoid rightDome_, leftDome_, centralDome_;
   Ellipsoid rightLobe_, leftLobe_, caudate_;
   std::vector<Ellipsoid> impressions_;  // smooth hollows of the visceral surface
   std::vector<Ellipsoid> fissures_;     // narrow clefts, filled with fat
   Ellipsoid gallbladder_, stomach_, antrum_, spleen_, rightKidney_, leftKidney_, heart_, leftVentricle_,
       rightVentricle_;
   Ellipsoid pancreas_;
-  std::vector<Ellipsoid> bowel_;
+  std::vector<Capsule> colon_;
   std::vector<Capsule> portalTrunk_;  // outside the liver: confluence to hilum, splenic and mesenteric veins
   std::vector<Capsule> hepaticStubs_;
   double cavaX_mm_ = 0.0;

@@ -6,8 +6,8 @@ namespace {
 // Signals relative to 1000. Contrast: fat-suppressed T1-weighted gradient echo in the portal venous phase (blood and
 // renal cortex brightest, fat and fluid dark). Elastography: gradient echo with a long echo time (fluid and fat
 // brighter).
-constexpr Torso::Signal air{4, 3}, skin{330, 210}, fat{105, 300}, muscle{195, 150}, cortical{40, 20}, marrow{170, 120},
-    disc{120, 170}, fluid{55, 420}, cord{170, 230}, liverTissue{430, 215}, blood{800, 330}, bile{60, 430},
+constexpr Torso::Signal air{4, 3}, skin{300, 210}, fat{120, 300}, muscle{235, 150}, cortical{40, 20}, marrow{205, 120},
+    disc{120, 170}, fluid{55, 420}, cord{170, 230}, liverTissue{430, 215}, blood{760, 330}, bile{60, 430},
     spleenTissue{500, 330}, renalCortex{760, 350}, renalMedulla{560, 380}, gutWall{380, 230}, gutContent{110, 260},
     gas{10, 5}, lung{22, 8}, myocardium{360, 190}, gland{400, 220}, diaphragmMuscle{210, 120};
 
@@ -59,7 +59,7 @@ Torso::Signal Torso::signal(const Point& p, double body, double liver, double ve
   c.over(cavity, scaled(fat, 1.05 + 0.22 * coarse + 0.12 * grain));
   const double dome = diaphragm_mm(p);
   if (dome > -5.0) {
-    c.over(std::max(cavity, -dome + 0.0), diaphragmMuscle);
+    c.over(std::max(cavity, -dome - 1.2), diaphragmMuscle);
     const double air_mm = std::max(cavity + 1.0, -dome + 1.8);
     c.over(air_mm, scaled(lung, 1.0 + 1.1 * grain + 5.0 * smoothStep(0.42, 0.75, noise(p, 13.0, seed_ + 22))));
     const double heart = std::max(heart_.distance_mm(p) + 2.0 * coarse, -dome + 2.0);
@@ -69,23 +69,36 @@ Torso::Signal Torso::signal(const Point& p, double body, double liver, double ve
            scaled(blood, 0.95));
   }
 
-  if (p.z() < -30.0)
-    for (std::size_t i = 0; i < bowel_.size(); ++i) {
-      const double d = std::max(bowel_[i].distance_mm(p) + 2.0 * coarse, cavity + 3.0);
-      if (d > 2.0) continue;
-      c.over(d, scaled(gutWall, 1.0 + 0.2 * grain));
-      c.over(d + 2.6, scaled(gutContent, 1.0 + 0.6 * coarse + (i % 3 == 0 ? 0.9 : 0.0)));
-      if (i % 4 == 1) c.over(std::max(d + 3.2, p.y() - bowel_[i].centre_lps_mm.y() + 2.0), gas);
-    }
+  // Small bowel: what lies between two levels of a warped field makes winding loops; its value sets wall and content.
+  const double roof = -28.0 + 0.2 * p.x() - 0.35 * std::max(p.y(), 0.0) + 12.0 * coarse;
+  if (p.z() < roof + 8.0 && cavity < 0.0) {
+    const Point warped =
+        p + 7.0 * Point(noise(p, 33.0, seed_ + 24), noise(p, 33.0, seed_ + 25), noise(p, 33.0, seed_ + 26));
+    const double loops = std::abs(noise(warped, 34.0, seed_ + 27));
+    const double shell = smoothMax(smoothMax(p.z() - roof, cavity + 5.0, 10.0), p.y() - 30.0 + 10.0 * coarse, 10.0);
+    const double d = smoothMax(30.0 * (0.10 - loops), shell, 8.0);
+    c.over(d, scaled(gutWall, 0.85 + 0.2 * grain));
+    c.over(d + 3.0, scaled(gutContent, 2.2 + 1.3 * noise(p, 48.0, seed_ + 28) + 0.5 * grain), 0.85, 4.0);
+  }
+  double colon = 1e3;
+  for (const Capsule& piece : colon_) colon = smoothMin(colon, piece.distance_mm(p), 8.0);
+  const double haustra = 1.8 * noise(p, 22.0, seed_ + 31);
+  colon = smoothMax(colon + haustra, cavity + 3.0, 6.0);
+  c.over(colon, scaled(gutWall, 0.8 + 0.2 * grain));
+  c.over(colon + 2.6, scaled(gutContent, 1.3 + 1.0 * coarse + 0.8 * grain));
+  c.over(smoothMax(colon + 3.4, p.y() + 52.0 + 24.0 * noise(p, 70.0, seed_ + 29), 3.0), gas);
+
   c.over(pancreas_.distance_mm(p) + 3.5 * grain + 2.0 * coarse, scaled(gland, 0.95 + 0.12 * grain));
-  const double gut = smoothMin(stomach_.distance_mm(p), antrum_.distance_mm(p), 16.0) + 2.5 * coarse;
+  const double gut = smoothMin(stomach_.distance_mm(p), antrum_.distance_mm(p), 16.0) + 5.0 * coarse;
   const double stomach = std::max({gut, cavity + 3.0, dome + 3.0});
-  c.over(stomach, scaled(gutWall, 1.05 + 0.2 * grain));
-  c.over(stomach + 4.0 + 1.2 * grain, scaled(gutContent, 0.9 + 0.35 * coarse));
-  c.over(std::max(stomach + 4.5, p.y() + 30.0 + 1.5 * coarse), gas);  // the patient lies on the back: gas in front
+  const double folds = 3.0 * std::abs(noise(p, 13.0, seed_ + 30));
+  c.over(stomach, scaled(gutWall, 1.1 + 0.2 * grain));
+  c.over(stomach + 3.0 + folds, scaled(gutContent, 1.3 + 0.8 * coarse + 0.7 * std::max(grain, 0.0)));
+  c.over(std::max(stomach + 4.0 + folds, 0.5 * (p.y() + 26.0) + 1.5 * coarse), gas);  // on the back: gas in front
 
   const double spleen =
-      std::max({without(spleen_.distance_mm(p) + 2.2 * coarse, stomach - 3.0, 6.0), cavity + 2.5, dome + 2.5});
+      smoothMax(smoothMax(without(spleen_.distance_mm(p) + 3.0 * coarse, stomach - 3.0, 8.0), cavity + 2.0, 9.0),
+                dome + 1.5, 5.0);
   c.over(spleen, scaled(spleenTissue, 1.0 + 0.035 * grain));
 
   for (const Ellipsoid* k : {&rightKidney_, &leftKidney_}) {
@@ -98,16 +111,20 @@ Torso::Signal Torso::signal(const Point& p, double body, double liver, double ve
     const double sinus = hilum.distance_mm(p);
     d = without(d, sinus + 5.0, 4.0);
     c.over(d, scaled(renalCortex, 1.0 + 0.04 * grain));
-    c.over(d + 7.0 + 3.0 * noise(p, 15.0, seed_ + 23), renalMedulla, 0.8, 3.0);
+    c.over(d + 6.0 + 9.0 * std::max(noise(p, 14.0, seed_ + 23), 0.0), renalMedulla, 0.85, 3.0);
     c.over(std::max(d - 1.0, sinus), scaled(fat, 1.2));
   }
 
   // Vertebral column with its muscles.
   const double paraspinal = std::min(cylinder_mm(p, -33, 92, 29, 17), cylinder_mm(p, 33, 92, 29, 17));
   c.over(std::max(paraspinal, body + 8.0), scaled(muscle, 1.0 + 0.2 * grain));
-  const double psoas = std::min(cylinder_mm(p, -32, 66, 15, 15), cylinder_mm(p, 32, 66, 15, 15));
-  c.over(psoas + 7.0 * smoothStep(-80.0, 10.0, p.z()), muscle);
-  c.over(std::min(cylinder_mm(p, -13, 46, 7, 11), cylinder_mm(p, 17, 48, 7, 11)), scaled(muscle, 1.05));  // crura
+  if (p.z() < 0.0) {  // the psoas widens downwards from the first lumbar vertebra
+    const double width = 15.0 * smoothStep(10.0, -90.0, p.z());
+    c.over(std::min(cylinder_mm(p, -33, 68, 15, 16), cylinder_mm(p, 33, 68, 15, 16)) + 15.0 - width,
+           scaled(muscle, 1.0 + 0.1 * grain));
+  }
+  const double crura = smoothMin(cylinder_mm(p, -10, 48, 6, 10), cylinder_mm(p, 21, 50, 5, 11), 6.0);
+  c.over(smoothMin(crura, cylinder_mm(p, 5, 53, 20, 8), 8.0) + 1.5 * coarse, scaled(muscle, 1.05));
   const double level = std::abs(std::fmod(p.z() + 1000.0 * 34.0, 34.0) - 17.0);  // 17: middle of a disc
   const double vertebra =
       cylinder_mm(p, 0, 66, 24.0 - 2.0 * smoothStep(17.0, 0.0, level), 18.0 - 1.5 * smoothStep(17.0, 0.0, level));

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "phantom/phantom.h"
+
+namespace glisson::test {
+
+/// One patient, made once for all tests of this program.
+inline const phantom::PhantomPatient& sharedPatient() {
+  static const phantom::PhantomPatient patient = phantom::makePhantom(1);
+  return patient;
+}
+
+}  // namespace glisson::test
