@@ -16,7 +16,7 @@ struct Polygon {
   Eigen::Matrix3Xd points_lps_mm;  ///< 3 × n, n ≥ 3, not repeated at the end, in one plane
   bool exclude = false;            ///< a region to leave out (a large vessel, a cyst)
   PolygonState state = PolygonState::Accepted;
-  std::string sopInstanceUid;      ///< image it was drawn on; empty where unknown
+  std::string sopInstanceUid;  ///< image it was drawn on; empty where unknown
 };
 
 /// All polygons of one reader on one image series.
@@ -28,14 +28,16 @@ struct ContourStack {
 };
 
 /// Masks the voxels whose centre lies inside, slice by slice: a polygon belongs to the one slice of the grid nearest to
-/// its plane (within half a slice spacing). Even-odd rule over the include polygons of a slice, so an inner polygon is a
-/// hole; exclude polygons are taken out afterwards. Tie rule: a centre exactly on an edge belongs to the polygon whose
-/// interior lies towards growing column index (then row index), so that two polygons that share an edge never both hold
-/// or both miss a voxel. Drafts do not count.
-/// Throws BadInput where no polygon meets the grid, or a polygon is not parallel to the slices (> 1 degree).
+/// its plane (within half a slice spacing). Even-odd rule over the include polygons of a slice, so an inner polygon is
+/// a hole; exclude polygons are taken out afterwards. Tie rule: a centre exactly on an edge belongs to the polygon
+/// whose interior lies towards growing column index (then row index), so that two polygons that share an edge never
+/// both hold or both miss a voxel. Drafts do not count. Throws BadInput where no polygon meets the grid, or a polygon
+/// is not parallel to the slices (> 1 degree).
 image::Mask rasterise(const ContourStack& contours, const image::Grid& grid);
 
-/// The area that polygons enclose on their slice (even-odd, minus exclusions), mm².
+/// The area that polygons enclose on their slice (even-odd, minus exclusions), mm², summed over planes; exact for
+/// crossing, nested and overlapping polygons. Drafts do not count. Throws BadInput as rasterise does for the polygons
+/// themselves.
 double area_mm2(const ContourStack& contours);
 
 }  // namespace glisson::roi

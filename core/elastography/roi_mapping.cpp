@@ -1,0 +1,189 @@
+#include "elastography/roi_mapping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "image/morphology.h"
+#include "image/resample.h"
+#include "roi/plane.h"
+
+namespace glisson::elastography {
+namespace {
+
+constexpr double coincident_mm = 0.5;
+constexpr double leastCoverage = 0.9;
+
+/// Distance along the MRE normal from a height (in MRE slices, not rounded) to the nearest MRE slice, mm.
+double toNearestSlice_mm(double k, const image::Grid& mre) {
+  const double nearest = std::clamp(std::round(k), 0.0, static_cast<double>(mre.size.z() - 1));
+  return std::abs(k - nearest) * mre.spacing_mm.z();
+}
+
+/// Fraction of the mask's voxel centres inside the MRE volume.
+double coverageOf(const image::Mask& mask, const image::Grid& mre) {
+  std::size_t all = 0, inside = 0, at = 0;
+  for (int k = 0; k < mask.grid.size.z(); ++k)
+    for (int j = 0; j < mask.grid.size.y(); ++j)
+      for (int i = 0; i < mask.grid.size.x(); ++i, ++at) {
+        if (mask.values[at] == 0) continue;
+        ++all;
+        if (image::voxelAt(mre, mask.grid.indexToLps({double(i), double(j), double(k)}))) ++inside;
+      }
+  return all == 0 ? 0.0 : static_cast<double>(inside) / static_cast<double>(all);
+}
+
+void finish(MappedRoi& result, const image::Grid& mre) {
+  if (image::count(result.mask) == 0) {
+    std::ostringstream why;
+    why << "the region of interest holds no voxel of the elastogram (the nearest slices are " << result.planeDistance_mm
+        << " mm apart); check that both belong to the same examination";
+    throw BadInput(why.str());
+  }
+  const double half_mm = 0.5 * mre.spacing_mm.z();
+  if (result.planeDistance_mm > half_mm * (1.0 + 1e-6)) {
+    std::ostringstream text;
+    text << "a slice of the region of interest lies " << result.planeDistance_mm
+         << " mm from the nearest elastography slice, more than half a slice (" << half_mm << " mm)";
+    result.warnings.push_back(text.str());
+  }
+  if (result.coverage < leastCoverage) {
+    std::ostringstream text;
+    text << "only " << std::round(1000.0 * result.coverage) / 10.0
+         << " % of the region of interest lies inside the elastogram (at least 90 % expected)";
+    result.warnings.push_back(text.str());
+  }
+}
+
+/// Heights of the slices of a mask that hold voxels, in MRE slices.
+std::vector<double> heights(const image::Mask& mask, const image::Grid& mre) {
+  std::vector<double> result;
+  const std::size_t perSlice = mask.grid.linear(0, 0, 1);
+  for (int k = 0; k < mask.grid.size.z(); ++k) {
+    const auto begin = mask.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(k) * perSlice);
+    if (std::none_of(begin, begin + static_cast<std::ptrdiff_t>(perSlice), [](auto v) { return v != 0; })) continue;
+    const Eigen::Vector3d middle(0.5 * (mask.grid.size.x() - 1), 0.5 * (mask.grid.size.y() - 1), k);
+    result.push_back(mre.lpsToIndex(mask.grid.indexToLps(middle)).z());
+  }
+  return result;
+}
+
+/// Sampled slice k of the mask.
+void sampleSlice(const image::Mask& source, int k, image::Mask& target) {
+  for (int j = 0; j < target.grid.size.y(); ++j)
+    for (int i = 0; i < target.grid.size.x(); ++i) {
+      const auto voxel = image::voxelAt(source.grid, target.grid.indexToLps({double(i), double(j), double(k)}));
+      target.at(i, j, k) = voxel && source.at(*voxel) != 0 ? 1 : 0;
+    }
+}
+
+double planeDistance(const std::vector<double>& k, const image::Grid& mre) {
+  double largest_mm = 0.0;
+  for (const double height : k) largest_mm = std::max(largest_mm, toNearestSlice_mm(height, mre));
+  return largest_mm;
+}
+
+}  // namespace
+
+MappedRoi mapRoi(const roi::ContourStack& contours, const std::optional<image::Grid>& mriGrid,
+                 const image::Grid& mreGrid, const std::string& mreFrameOfReferenceUid) {
+  mreGrid.check();
+  MappedRoi result;
+  result.mask = image::Mask(mreGrid);
+  bool parallel = true;
+  std::vector<std::size_t> counted;
+  for (std::size_t p = 0; p < contours.polygons.size(); ++p) {
+    if (contours.polygons[p].state == roi::PolygonState::Draft) continue;
+    counted.push_back(p);
+    parallel = parallel && roi::parallelTo(contours.polygons[p], mreGrid);
+  }
+  if (counted.empty()) throw BadInput("the region of interest has no polygon that counts (drafts do not)");
+
+  std::optional<image::Mask> onMri;
+  if (mriGrid) {
+    onMri = roi::rasterise(contours, *mriGrid);
+    result.coverage = coverageOf(*onMri, mreGrid);
+  }
+  std::vector<double> height;  // of every counted polygon
+  for (const std::size_t p : counted)
+    height.push_back(mreGrid.lpsToIndex(contours.polygons[p].points_lps_mm.rowwise().mean()).z());
+  result.planeDistance_mm = planeDistance(height, mreGrid);
+
+  if (!mriGrid) {
+    result.mask = roi::rasterise(contours, mreGrid);
+    const auto slices = roi::polygonsPerSlice(contours, mreGrid);
+    result.coincidentSlices =
+        static_cast<int>(std::count_if(slices.begin(), slices.end(), [](const auto& s) { return !s.empty(); }));
+    // Without the MRI's slices the region's volume is taken as its area; several planes on one slice count each.
+    double insideArea_mm2 = 0.0;
+    for (std::size_t c = 0; c < counted.size(); ++c) {
+      const double k = height[c];
+      if (k < -0.5 - 1e-6 || k > mreGrid.size.z() - 0.5 + 1e-6) continue;
+      roi::ContourStack alone;
+      alone.polygons.push_back(contours.polygons[counted[c]]);
+      alone.polygons.front().exclude = false;
+      const int slice = std::clamp(static_cast<int>(std::ceil(k - 0.5 - 1e-6)), 0, mreGrid.size.z() - 1);
+      image::Mask scratch(mreGrid);
+      roi::fillSlice(scratch, slice, alone, {0});
+      insideArea_mm2 += static_cast<double>(image::count(scratch)) * mreGrid.spacing_mm.head<2>().prod();
+    }
+    double area_mm2 = 0.0;
+    for (const std::size_t p : counted) {
+      roi::ContourStack alone;
+      alone.polygons.push_back(contours.polygons[p]);
+      alone.polygons.front().exclude = false;
+      area_mm2 += roi::area_mm2(alone);
+    }
+    result.coverage = area_mm2 > 0.0 ? std::min(1.0, insideArea_mm2 / area_mm2) : 0.0;
+  } else {
+    for (int k = 0; k < mreGrid.size.z(); ++k) {
+      double nearest_mm = 1e300;
+      for (const double h : height) nearest_mm = std::min(nearest_mm, std::abs(h - k) * mreGrid.spacing_mm.z());
+      if (!parallel || nearest_mm > coincident_mm) {
+        sampleSlice(*onMri, k, result.mask);
+        const std::size_t perSlice = mreGrid.linear(0, 0, 1);
+        const auto begin =
+            result.mask.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(k) * perSlice);
+        if (std::any_of(begin, begin + static_cast<std::ptrdiff_t>(perSlice), [](auto v) { return v != 0; }))
+          ++result.sampledSlices;
+        continue;
+      }
+      std::vector<std::size_t> members;
+      for (std::size_t c = 0; c < counted.size(); ++c)
+        if (std::abs(height[c] - k) * mreGrid.spacing_mm.z() <= nearest_mm + 0.1 * mriGrid->spacing_mm.z())
+          members.push_back(counted[c]);
+      roi::fillSlice(result.mask, k, contours, members);  // in-plane position along the MRE normal
+      ++result.coincidentSlices;
+    }
+  }
+  if (!contours.frameOfReferenceUid.empty() && !mreFrameOfReferenceUid.empty() &&
+      contours.frameOfReferenceUid != mreFrameOfReferenceUid)
+    result.warnings.push_back(
+        "the region of interest and the elastogram have different frames of reference; confirm that they fit");
+  if (!parallel)
+    result.warnings.push_back("the slices the region was drawn on and the elastography slices are not parallel");
+  finish(result, mreGrid);
+  return result;
+}
+
+MappedRoi mapRoi(const image::Mask& roi, const image::Grid& mreGrid) {
+  mreGrid.check();
+  if (image::count(roi) == 0) throw BadInput("the region of interest is empty (no voxel inside)");
+  MappedRoi result;
+  result.mask = image::resampleNearest(roi, mreGrid);
+  result.coverage = coverageOf(roi, mreGrid);
+  // Of a mask with thinner slices than the elastogram, only distances beyond the outer slices say something.
+  result.planeDistance_mm = planeDistance(heights(roi, mreGrid), mreGrid);
+  const std::size_t perSlice = mreGrid.linear(0, 0, 1);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(mreGrid.size.z()); ++k)
+    for (std::size_t v = k * perSlice; v < (k + 1) * perSlice; ++v)
+      if (result.mask.values[v] != 0) {
+        ++result.sampledSlices;
+        break;
+      }
+  finish(result, mreGrid);
+  return result;
+}
+
+}  // namespace glisson::elastography

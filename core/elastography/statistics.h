@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "elastography/stiffness_map.h"
+
+namespace glisson::elastography {
+
+/// Statistics of the voxels that count. NaN where there are none (and for the SD of one voxel).
+struct Statistics {
+  std::size_t n = 0;              ///< voxels that count: finite, > 0, confident
+  std::size_t n_before_mask = 0;  ///< voxels of the (eroded) region of interest
+  double area_mm2 = 0.0;          ///< n × in-plane voxel area
+  double mean_kPa = 0.0;
+  double median_kPa = 0.0;  ///< mean of the two middle values where n is even
+  double sd_kPa = 0.0;      ///< sample standard deviation, divisor n − 1
+  double min_kPa = 0.0;
+  double max_kPa = 0.0;
+};
+
+struct SliceStatistics {
+  int slice = 0;  ///< k index of the map
+  Statistics statistics;
+};
+
+struct MeasureOptions {
+  double confidenceThreshold = defaults::confidenceThreshold;  ///< of 1; 0 takes every voxel
+  int erosion_pixels = 0;                                      ///< inner region of interest, in each slice
+  double poisson = defaults::poisson;                          ///< for the conversion to the other modulus
+};
+
+struct Measurement {
+  StiffnessQuantity quantity = StiffnessQuantity::Shear;  ///< of every *_kPa below but youngs and shear
+  Statistics pooled;
+  std::vector<SliceStatistics> slices;  ///< slices with region-of-interest voxels, in order of k
+  double areaWeightedMean_kPa = 0.0;    ///< Σ (mean_i area_i) / Σ area_i over slices
+  double youngs_mean_kPa = 0.0;         ///< pooled mean as E = 2 (1 + ν) µ
+  double shear_mean_kPa = 0.0;          ///< pooled mean as µ
+  double poisson = defaults::poisson;   ///< used for the conversion
+  std::size_t notFinite = 0;            ///< left out: not finite
+  std::size_t notPositive = 0;          ///< left out: ≤ 0
+  std::size_t lowConfidence = 0;        ///< left out: finite, > 0, below the threshold
+  std::vector<std::string> warnings;    ///< "Pa or kPa?", most voxels left out
+};
+
+/// Stiffness statistics inside a region of interest given on the map's own grid.
+/// Throws BadInput where the mask is on another grid, empty, empty after erosion, or no voxel is left (with the
+/// counts).
+Measurement measure(const StiffnessMap& map, const image::Mask& roi, const MeasureOptions& options = {});
+
+/// Statistics of plain values, kPa; voxelArea_mm2 scales the area.
+Statistics statisticsOf(std::vector<double> values_kPa, double voxelArea_mm2);
+
+}  // namespace glisson::elastography
