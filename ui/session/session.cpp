@@ -1,0 +1,213 @@
+#include "session/session.h"
+
+#include <QStandardPaths>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "elastography/roi_mapping.h"
+#include "session/act_command.h"
+
+namespace glisson::session {
+
+namespace {
+
+constexpr int measureEvery_ms = 16;
+
+QString plural(std::size_t n, const QString& one, const QString& many) {
+  return n == 1 ? one : many.arg(static_cast<qulonglong>(n));
+}
+
+}  // namespace
+
+Session::Session(QObject* parent) : QObject(parent), tool_(contours_) {
+  measureTimer_.setSingleShot(true);
+  measureTimer_.setInterval(measureEvery_ms);
+  connect(&measureTimer_, &QTimer::timeout, this, &Session::measure);
+  connect(&worker_, &Worker::progressed, this, &Session::progressed);
+  workFolder_ = QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/current-case");
+}
+
+Session::~Session() = default;
+
+void Session::setWorkFolder(const QString& folder) {
+  workFolder_ = folder;
+}
+
+QString Session::runFolder() const {
+  return workFolder_ + QStringLiteral("/results");
+}
+
+std::size_t Session::acceptedCount() const {
+  return static_cast<std::size_t>(std::count_if(contours_.polygons.begin(), contours_.polygons.end(),
+                                                [](const auto& p) { return p.state == roi::PolygonState::Accepted; }));
+}
+
+void Session::apply(const tools::Acts& acts) {
+  for (const tools::Act& act : acts) undo_.push(commandOf(act, contours_), contours_);
+  if (acts.empty()) {
+    toolMoved();
+    return;
+  }
+  tool_.contoursChanged();
+  contoursTouched();
+}
+
+void Session::toolMoved() {
+  if (!tool_.message().empty()) emit message(QString::fromStdString(tool_.message()));
+  const bool atWork = tool_.drawing().cols() >= 3 || tool_.preview().cols() > 0;
+  if (atWork && !measureTimer_.isActive()) measureTimer_.start();
+  emit toolChanged();
+}
+
+void Session::contoursTouched() {
+  ++revision_;
+  modified_ = true;
+  failure_[static_cast<std::size_t>(Step::Segment)].clear();
+  if (!measureTimer_.isActive()) measureTimer_.start();
+  if (!tool_.message().empty()) emit message(QString::fromStdString(tool_.message()));
+  emit contoursChanged();
+  emit toolChanged();
+  emit statusChanged();
+}
+
+void Session::undo() {
+  if (tool_.undoDrawing()) {
+    toolMoved();
+    return;
+  }
+  if (const auto where = undo_.undo(contours_)) {
+    tool_.contoursChanged();
+    emit pointWanted(*where);
+    contoursTouched();
+  }
+}
+
+void Session::redo() {
+  if (tool_.redoDrawing()) {
+    toolMoved();
+    return;
+  }
+  if (const auto where = undo_.redo(contours_)) {
+    tool_.contoursChanged();
+    emit pointWanted(*where);
+    contoursTouched();
+  }
+}
+
+bool Session::canUndo() const {
+  return tool_.state() == tools::ToolState::Drawing || undo_.canUndo();
+}
+bool Session::canRedo() const {
+  return undo_.canRedo();
+}
+QString Session::undoText() const {
+  return tool_.state() == tools::ToolState::Drawing ? tr("vertex") : QString::fromStdString(undo_.undoText());
+}
+QString Session::redoText() const {
+  return QString::fromStdString(undo_.redoText());
+}
+
+void Session::setShownPlane(const tools::SlicePlane& plane) {
+  plane_ = plane;
+  if (!measureTimer_.isActive()) measureTimer_.start();
+}
+
+void Session::setParameters(const Parameters& parameters) {
+  if (parameters == parameters_) return;
+  parameters_ = parameters;
+  ++revision_;
+  modified_ = true;
+  emit parametersChanged();
+  emit statusChanged();
+}
+
+bool Session::resultIsStale() const {
+  return result_ && revision_ != resultRevision_;
+}
+
+void Session::cancel() {
+  worker_.cancel();
+}
+
+StepStatus Session::status(Step step) const {
+  const QString& failed = failure_[static_cast<std::size_t>(step)];
+  const bool running = work_ == Work::Run && worker_.busy();
+  const std::size_t accepted = acceptedCount();
+  if (step == Step::Load) {
+    if (work_ == Work::Load && worker_.busy()) return {StepState::Running, tr("Reading images")};
+    if (!failed.isEmpty()) return {StepState::Failed, failed};
+    if (!images_.mri) return {StepState::Ready, tr("Open a DICOM folder or the synthetic patient")};
+    return {StepState::Done, plural(scan_.series.size(), tr("1 series"), tr("%1 series"))};
+  }
+  if (!images_.mri) return {StepState::Empty, tr("Needs images")};
+  if (step == Step::Segment) {
+    if (!failed.isEmpty()) return {StepState::Failed, failed};
+    if (accepted == 0) return {StepState::Ready, tr("Outline the liver")};
+    return {StepState::Done, plural(accepted, tr("1 outline"), tr("%1 outlines"))};
+  }
+  if (accepted == 0) return {StepState::Empty, tr("Needs an outline")};
+  if (running) return {StepState::Running, tr("Running")};
+  if (step != Step::Model && !failed.isEmpty()) return {StepState::Failed, failed};
+  if (result_ && resultIsStale()) return {StepState::Stale, tr("Changed since the last run")};
+  if (!result_) {
+    if (step == Step::Compare) return {StepState::Empty, tr("Needs a run")};
+    return {StepState::Ready, step == Step::Model ? tr("Set and check") : tr("Ready to run")};
+  }
+  if (step == Step::Model) return {StepState::Done, tr("%1 cells").arg(static_cast<qulonglong>(result_->model.cells))};
+  if (step == Step::Retract) return {StepState::Done, tr("%1 DOFs").arg(result_->primary.dofs)};
+  if (!result_->difference) return {StepState::Empty, tr("Nothing was compared")};
+  return {StepState::Done, tr("mean %1 mm").arg(result_->difference->mean_mm, 0, 'f', 2)};
+}
+
+void Session::measure() {
+  LiveStatistics now;
+  if (!images_.stiffness || !images_.mri) {
+    now.reason = tr("No elastogram is open.");
+  } else {
+    roi::ContourStack counted = contours_;
+    if (tool_.preview().cols() > 0 && tool_.selected())
+      counted.polygons[*tool_.selected()].points_lps_mm = tool_.preview();
+    if (tool_.drawing().cols() >= 3) {
+      roi::Polygon inWork;
+      inWork.points_lps_mm = tool_.drawing();
+      counted.polygons.push_back(std::move(inWork));
+    }
+    // A closed outline that is being adjusted counts in the live readout, though it is not accepted yet.
+    if (tool_.state() == tools::ToolState::Editing && tool_.selected() && *tool_.selected() < counted.polygons.size())
+      counted.polygons[*tool_.selected()].state = roi::PolygonState::Accepted;
+    try {
+      const elastography::MappedRoi mapped = elastography::mapRoi(
+          counted, images_.mri->grid, images_.stiffness->values_kPa.grid, images_.stiffness->frameOfReferenceUid);
+      now.pooled = elastography::measure(*images_.stiffness, mapped.mask);
+      if (plane_) {
+        const image::Grid& grid = images_.stiffness->values_kPa.grid;
+        const Eigen::Vector3d centre =
+            plane_->grid.indexToLps({0.5 * plane_->grid.size.x(), 0.5 * plane_->grid.size.y(), 1.0 * plane_->slice});
+        const auto k = static_cast<int>(std::lround(grid.lpsToIndex(centre).z()));
+        for (const elastography::SliceStatistics& s : now.pooled->slices)
+          if (s.slice == k) now.slice = s.statistics;
+      }
+    } catch (const Error& nothing) {
+      now.reason = acceptedCount() == 0 && tool_.drawing().cols() < 3 ? tr("Draw an outline to measure.")
+                                                                      : QString::fromUtf8(nothing.what());
+    }
+  }
+  statistics_ = now;
+  emit statisticsChanged();
+}
+
+void Session::ended(Work work, std::exception_ptr failure) {
+  work_ = Work::None;
+  const QString reason = reasonOf(failure);
+  if (work == Work::Load) failure_[static_cast<std::size_t>(Step::Load)] = reason;
+  if (work == Work::Run) {
+    failure_[static_cast<std::size_t>(Step::Retract)] = reason;
+    failure_[static_cast<std::size_t>(Step::Compare)] = reason;
+  }
+  if (wasCancelled(failure)) emit message(tr("Cancelled."));
+  emit workEnded(!failure, reason);
+  emit statusChanged();
+}
+
+}  // namespace glisson::session

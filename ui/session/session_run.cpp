@@ -1,0 +1,45 @@
+// Running: the case is saved, then run from its files, so that the command line gives the same numbers.
+#include "base/error.h"
+#include "session/session.h"
+
+namespace glisson::session {
+
+void Session::run() {
+  if (worker_.busy()) {
+    emit message(tr("Still at work; cancel it first."));
+    return;
+  }
+  if (acceptedCount() == 0) {
+    emit message(tr("Outline the liver and accept the outline (Enter) first."));
+    return;
+  }
+  failure_[static_cast<std::size_t>(Step::Retract)].clear();
+  failure_[static_cast<std::size_t>(Step::Compare)].clear();
+  const std::filesystem::path folder = workFolder_.toStdString();
+  work_ = Work::Run;
+  auto result = std::make_shared<pipeline::RunResult>();
+  const std::uint64_t revision = revision_;
+  worker_.start(
+      [folder, result, files = caseFiles(folder)](const Progress& progress) {
+        writeCase(files, folder);
+        pipeline::RunOptions options;
+        options.output = folder / "results";
+        *result = pipeline::run(pipeline::readScene(folder / "scene.json"), options, progress);
+      },
+      [this, result, revision](std::exception_ptr failure) {
+        if (!failure) {
+          // The overlays are drawn from a copy of their own, so that nothing is held twice.
+          picture_ =
+              result->picture ? std::make_shared<const render::RetractionScene>(std::move(*result->picture)) : nullptr;
+          result->picture.reset();
+          result_ = result;
+          resultRevision_ = revision;
+        }
+        ended(Work::Run, failure);
+        if (!failure) emit runFinished();
+      });
+  emit workStarted(tr("Running"));
+  emit statusChanged();
+}
+
+}  // namespace glisson::session
