@@ -78,7 +78,7 @@ void fillElastogram(const ElastogramInput& in, PhantomPatient& out) {
       if ((*in.body_mm)[v] > 0.0F) continue;
       const Point p = position(v);
       const double liver = (*in.liver_mm)[v];
-      double score = 0.5 + 0.35 * noise(p, 30.0, pattern.seed + 3);
+      double score = 0.28 + 0.30 * noise(p, 30.0, pattern.seed + 3);
       if (liver < 0.0) {
         out.liverMre.values[v] = 1;
         out.cleanShear_kPa.values[v] = static_cast<float>(1.0 + pattern.variation(p));
@@ -89,7 +89,7 @@ void fillElastogram(const ElastogramInput& in, PhantomPatient& out) {
         score *= smoothStep(0.6 * pattern.weakRadius_mm, 1.1 * pattern.weakRadius_mm, weak);
       } else {
         score *= 0.95 * smoothStep(0.0, 14.0, liver);
-        score = std::min(score, 0.49);
+        score = std::clamp(score, 0.0, 0.49);
       }
       const double confidence = score >= 0.5 ? 962.0 + 36.0 * smoothStep(0.5, 0.9, score) + r.uniform(-2.0, 1.0)
                                              : 925.0 * std::pow(score / 0.5, 0.7) + r.uniform(-12.0, 12.0);
@@ -143,7 +143,7 @@ void fillElastogram(const ElastogramInput& in, PhantomPatient& out) {
       for (int s = 0; s < samples; ++s)
         slowness +=
             std::sqrt(defaults::liverDensity.kgPerM3() / (1e3 * mu_kPa(from + (p - from) * (s + 0.5) / samples)));
-      return std::pair{std::exp(-way_m / 0.075) / std::sqrt(1.0 + way_m / 0.02), omega * way_m * slowness / samples};
+      return std::pair{std::exp(-way_m / 0.11) / std::sqrt(1.0 + way_m / 0.03), omega * way_m * slowness / samples};
     };
     const double startPhase = 0.03 * z;
     for (std::size_t v = begin; v < end; ++v) {

@@ -50,7 +50,7 @@ Torso::Torso(std::uint64_t seed) : seed_(seed) {
 
   gallbladder_ = organ(r, {-48, -36, -36}, {15, 32, 16}, rotation(28, 0, 16), 3.0, 0.12);
   stomach_ = organ(r, {62, -14, 22}, {42, 54, 58}, rotation(0, -10, 16), 3.0);
-  antrum_ = organ(r, {36, -46, -24}, {48, 22, 24}, rotation(0, -22, -12));
+  antrum_ = organ(r, {30, -46, -12}, {52, 24, 25}, rotation(0, -22, -12));
   spleen_ = organ(r, {98, 42, 20}, {31, 49, 54}, rotation(12, 10, 24), 3.0, 0.1);
   rightKidney_ = organ(r, {-57, 58, -66}, {27, 25, 52}, rotation(-8, 10, 18), 2.0);
   leftKidney_ = organ(r, {62, 56, -44}, {27, 26, 53}, rotation(-8, -10, -18), 2.0);
