@@ -101,7 +101,7 @@ class Walker {
   /// the walk ended.
   std::uint64_t walk(std::uint64_t begin, std::uint64_t end, bool untilItemEnd, int depth, bool explicitVr, bool big) {
     if (depth > maxDepth) {
-      tooDeep_ = true;
+      fatal_ = true;
       throw BadInput("nests sequences more than 64 deep" + at(begin) + "; it is refused");
     }
     std::uint64_t here = begin;
@@ -128,7 +128,8 @@ class Walker {
     return here;
   }
 
-  bool tooDeep() const { return tooDeep_; }
+  /// Whether what was found is to be refused wherever it stands.
+  bool fatal() const { return fatal_; }
 
  private:
   std::uint16_t number16(std::uint64_t offset, bool big) const {
@@ -159,8 +160,10 @@ class Walker {
       const bool same = other.length == e.length && e.length != undefinedLength && e.length < (1U << 20) &&
                         e.value + e.length <= end &&
                         source_.bytes(other.value, other.length) == source_.bytes(e.value, e.length);
-      if (!same || pixelElement)
+      if (!same || pixelElement) {
+        fatal_ = true;
         throw BadInput("element " + hexTag(e.tag) + " occurs twice with different values" + at(e.begin));
+      }
       warn("element " + hexTag(e.tag) + " occurs twice");
     }
     if (!pixelElement) return;
@@ -200,7 +203,7 @@ class Walker {
       try {
         items(e.value, e.value + e.length, false, depth, explicitVr, big);
       } catch (const BadInput&) {
-        if (tooDeep_ || elements_ > maxElements) throw;
+        if (fatal_ || elements_ > maxElements) throw;
       }
     }
     return e.value + e.length;
@@ -252,7 +255,7 @@ class Walker {
   FileLayout& layout_;
   std::map<std::uint32_t, Element> top_;
   std::size_t elements_ = 0;
-  bool tooDeep_ = false;
+  bool fatal_ = false;
 };
 
 std::string uidText(const ByteSource& source, const Element& e) {
@@ -356,11 +359,17 @@ FileLayout readLayout(ByteSource& source) {
   try {
     walker.walk(layout.datasetOffset, source.size(), false, 0, layout.explicitVr, layout.bigEndian);
   } catch (const BadInput&) {
-    // What follows complete pixel data is not needed; nesting bombs are refused wherever they are.
+    // What follows complete pixel data is not needed; nesting bombs and contradictions are refused wherever they are.
     const bool complete = layout.pixels && !layout.pixels->encapsulated;
-    if (!complete || walker.tooDeep()) throw;
+    if (!complete || walker.fatal()) throw;
     walker.warn("has damaged elements after its pixel data");
   }
+  const bool compressed = syntax.starts_with("1.2.840.10008.1.2.4.") || syntax == "1.2.840.10008.1.2.5" ||
+                          syntax == "1.2.840.10008.1.2.8.1";
+  if (layout.pixels && layout.pixels->encapsulated != compressed)
+    throw BadInput(std::string("declares ") + (compressed ? "compressed" : "uncompressed") +
+                   " pixels (transfer syntax " + syntax + ") and holds " +
+                   (compressed ? "uncompressed" : "compressed") + " ones");
   if (layout.headerEnd - layout.datasetOffset > maxHeaderBytes)
     throw BadInput("has a header of more than 128 MiB; it is refused");
   return layout;

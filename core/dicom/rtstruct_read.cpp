@@ -1,0 +1,139 @@
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "dicom/attributes.h"
+#include "dicom/rtstruct.h"
+
+namespace glisson::dicom {
+namespace {
+
+/// Calls body for each item of a sequence, in time linear in their number.
+template <typename Body>
+void forItems(DcmItem& holder, const DcmTagKey& sequence, Body body) {
+  DcmSequenceOfItems* items = nullptr;
+  if (holder.findAndGetSequence(sequence, items).bad() || items == nullptr) return;
+  for (DcmObject* o = items->nextInContainer(nullptr); o != nullptr; o = items->nextInContainer(o))
+    body(*static_cast<DcmItem*>(o));
+}
+
+int roiNumber(DcmItem& item, const DcmTagKey& tag) {
+  const auto value = number(item, tag);
+  if (!value || std::abs(*value) > 2e9 || *value != std::floor(*value))
+    throw BadInput(nameOf(tag) + " is missing or no whole number");
+  return static_cast<int>(*value);
+}
+
+StructureContour readContour(DcmItem& item, const std::string& where, std::vector<std::string>& warnings) {
+  StructureContour contour;
+  const std::vector<double> xyz = numbers(item, DCM_ContourData);
+  if (xyz.size() % 3 != 0)
+    throw BadInput(where + ": " + nameOf(DCM_ContourData) + " holds " + std::to_string(xyz.size()) +
+                   " numbers, which is no multiple of three (x, y, z)");
+  contour.points_lps_mm = Eigen::Map<const Eigen::Matrix3Xd>(xyz.data(), 3, static_cast<Eigen::Index>(xyz.size() / 3));
+  if (contour.points_lps_mm.size() > 0 && contour.points_lps_mm.cwiseAbs().maxCoeff() > 1e5)
+    throw BadInput(where + ": a point lies more than 100 m from the scanner");
+  // The first point repeated at the end is allowed by nobody and written by many.
+  const Eigen::Index n = contour.points_lps_mm.cols();
+  if (n > 1 && (contour.points_lps_mm.col(0) - contour.points_lps_mm.col(n - 1)).norm() < 1e-6)
+    contour.points_lps_mm.conservativeResize(Eigen::NoChange, n - 1);
+  try {
+    const auto announced = number(item, DCM_NumberOfContourPoints);
+    if (announced && *announced != static_cast<double>(n))
+      warnings.push_back(where + ": announces another number of points than it holds");
+  } catch (const BadInput&) {
+    warnings.push_back(where + ": " + nameOf(DCM_NumberOfContourPoints) + " is no number");
+  }
+  if (DcmItem* image = itemOf(item, DCM_ContourImageSequence))
+    contour.referencedSopInstanceUid = shownText(*image, DCM_ReferencedSOPInstanceUID);
+  return contour;
+}
+
+void readReferences(DcmDataset& data, StructureSet& set) {
+  forItems(data, DCM_ReferencedFrameOfReferenceSequence, [&](DcmItem& frame) {
+    if (set.frameOfReferenceUid.empty()) set.frameOfReferenceUid = shownText(frame, DCM_FrameOfReferenceUID);
+    forItems(frame, DCM_RTReferencedStudySequence, [&](DcmItem& study) {
+      forItems(study, DCM_RTReferencedSeriesSequence, [&](DcmItem& series) {
+        const std::string uid = shownText(series, DCM_SeriesInstanceUID);
+        if (set.referencedSeriesUid.empty())
+          set.referencedSeriesUid = uid;
+        else if (set.referencedSeriesUid != uid)
+          set.warnings.push_back("refers to several image series; the first one is taken");
+      });
+    });
+  });
+}
+
+StructureSet readData(DcmDataset& data) {
+  StructureSet set;
+  if (text(data, DCM_SOPClassUID) != UID_RTStructureSetStorage && text(data, DCM_Modality) != "RTSTRUCT")
+    throw BadInput("is no RT Structure Set (modality '" + shownText(data, DCM_Modality) + "')");
+  readReferences(data, set);
+  std::map<int, std::size_t> byNumber;
+  std::set<std::string> frames;
+  forItems(data, DCM_StructureSetROISequence, [&](DcmItem& item) {
+    Structure structure;
+    structure.number = roiNumber(item, DCM_ROINumber);
+    structure.name = shownText(item, DCM_ROIName);
+    const std::string frame = shownText(item, DCM_ReferencedFrameOfReferenceUID);
+    if (!frame.empty()) frames.insert(frame);
+    if (!byNumber.try_emplace(structure.number, set.structures.size()).second)
+      throw BadInput(nameOf(DCM_ROINumber) + " " + std::to_string(structure.number) + " is used twice");
+    set.structures.push_back(std::move(structure));
+  });
+  if (set.frameOfReferenceUid.empty() && !frames.empty()) set.frameOfReferenceUid = *frames.begin();
+  if (frames.size() > 1) set.warnings.push_back("has structures in several frames of reference");
+  forItems(data, DCM_ROIContourSequence, [&](DcmItem& item) {
+    const int reference = roiNumber(item, DCM_ReferencedROINumber);
+    const std::string roi = "structure number " + std::to_string(reference);
+    const auto known = byNumber.find(reference);
+    if (known == byNumber.end()) {
+      set.warnings.push_back(roi + " has contours but is not listed; it is left out");
+      return;
+    }
+    Structure& structure = set.structures[known->second];
+    std::map<std::string, int> otherKinds;
+    int tooShort = 0;
+    int index = 0;
+    forItems(item, DCM_ContourSequence, [&](DcmItem& contourItem) {
+      const std::string where = roi + ", contour " + std::to_string(++index);
+      const std::string kind = shownText(contourItem, DCM_ContourGeometricType);
+      if (kind != "CLOSED_PLANAR" && kind != "CLOSEDPLANAR_XOR") {
+        ++otherKinds[kind];
+        return;
+      }
+      StructureContour contour = readContour(contourItem, where, set.warnings);
+      if (contour.points_lps_mm.cols() < 3)
+        ++tooShort;
+      else
+        structure.contours.push_back(std::move(contour));
+    });
+    for (const auto& [kind, many] : otherKinds)
+      set.warnings.push_back(roi + ": " + std::to_string(many) + " contour(s) of type '" + kind + "' are left out");
+    if (tooShort > 0)
+      set.warnings.push_back(roi + ": " + std::to_string(tooShort) + " contour(s) of fewer than 3 points are left out");
+  });
+  return set;
+}
+
+}  // namespace
+
+StructureSet readRtStruct(const std::filesystem::path& file) {
+  const std::string which = "'" + file.filename().string() + "' ";
+  try {
+    ByteSource source(file);
+    const FileLayout layout = readLayout(source);
+    DcmDataset data;
+    parseHeader(source, layout, data);
+    StructureSet set = readData(data);
+    for (const std::string& w : layout.warnings) set.warnings.push_back(w);
+    return set;
+  } catch (const BadInput& e) {
+    throw BadInput(which + e.what());
+  } catch (const std::bad_alloc&) {
+    throw BadInput(which + "does not fit into memory");
+  }
+}
+
+}  // namespace glisson::dicom

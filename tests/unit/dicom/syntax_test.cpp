@@ -1,0 +1,166 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+#include <dcmtk/dcmjpeg/djencode.h>
+#include <dcmtk/dcmjpeg/djrplol.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+#include "base/error.h"
+#include "dicom/series.h"
+#include "support/support.h"
+
+namespace glisson::dicom {
+namespace {
+
+using testing::HasSubstr;
+
+std::filesystem::path pydicomFile(const std::string& name) {
+  return test::sharedData() / "dicom_seg_rtstruct" / "pydicom_data" / name;
+}
+
+/// These files lost their functional groups when they were made anonymous; this gives each frame a place 1.2 mm further
+/// on, and leaves the pixels as they are. change may alter the data set.
+std::filesystem::path placed(const std::string& name, const std::filesystem::path& to,
+                             const std::function<void(DcmDataset&)>& change = {}) {
+  DcmFileFormat file;
+  EXPECT_TRUE(file.loadFile(pydicomFile(name).c_str()).good());
+  DcmDataset& data = *file.getDataset();
+  const E_TransferSyntax syntax = data.getOriginalXfer();
+  const auto item = [](DcmItem& holder, const DcmTagKey& sequence) -> DcmItem& {
+    DcmItem* made = nullptr;
+    holder.findOrCreateSequenceItem(sequence, made, -2);
+    return *made;
+  };
+  DcmItem& shared = item(data, DCM_SharedFunctionalGroupsSequence);
+  item(shared, DCM_PlaneOrientationSequence).putAndInsertString(DCM_ImageOrientationPatient, "1\\0\\0\\0\\1\\0");
+  item(shared, DCM_PixelMeasuresSequence).putAndInsertString(DCM_PixelSpacing, "2\\3");
+  for (int n = 0; n < 10; ++n) {
+    const std::string position = "0\\0\\" + std::to_string(1.2 * n);
+    item(item(data, DCM_PerFrameFunctionalGroupsSequence), DCM_PlanePositionSequence)
+        .putAndInsertString(DCM_ImagePositionPatient, position.c_str());
+  }
+  if (change) change(data);
+  EXPECT_TRUE(file.saveFile(to.c_str(), syntax).good());
+  return to;
+}
+
+image::ScalarVolume readOnly(const std::filesystem::path& file) {
+  const ScanResult found = scan(file);
+  if (found.series.size() != 1U) throw BadInput(found.skipped.at(0).reason);
+  return readSeries(found.series.front());
+}
+
+/// The pixels as they lie in the uncompressed file.
+std::vector<float> nativePixels() {
+  DcmFileFormat file;
+  file.loadFile(pydicomFile("emri_small.dcm").c_str());
+  const Uint16* pixels = nullptr;
+  file.getDataset()->findAndGetUint16Array(DCM_PixelData, pixels);
+  return {pixels, pixels + 64 * 64 * 10};
+}
+
+TEST(Syntaxes, losslessOnesGiveTheSameVoxels) {
+  GLISSON_NEEDS_DATA("dicom_seg_rtstruct");
+  const test::TemporaryFolder folder;
+  const std::vector<float> truth = nativePixels();
+  for (const char* name :
+       {"emri_small.dcm", "emri_small_big_endian.dcm", "emri_small_RLE.dcm", "emri_small_jpeg_ls_lossless.dcm"}) {
+    const image::ScalarVolume volume = readOnly(placed(name, folder / name));
+    EXPECT_EQ(volume.grid.size, Eigen::Vector3i(64, 64, 10));
+    EXPECT_TRUE(volume.grid.spacing_mm.isApprox(Eigen::Vector3d(3, 2, 1.2)));
+    EXPECT_EQ(volume.values, truth) << name;
+    // Without their functional groups the same frames have no place, and that is said.
+    EXPECT_THROW(readOnly(pydicomFile(name)), BadInput);
+  }
+}
+
+TEST(Syntaxes, jpegLosslessGivesTheSameVoxels) {
+  GLISSON_NEEDS_DATA("dicom_seg_rtstruct");
+  const test::TemporaryFolder folder;
+  DJEncoderRegistration::registerCodecs();
+  DcmFileFormat file;
+  ASSERT_TRUE(file.loadFile(placed("emri_small.dcm", folder / "native").c_str()).good());
+  const DJ_RPLossless parameters;
+  ASSERT_TRUE(file.getDataset()->chooseRepresentation(EXS_JPEGProcess14SV1, &parameters).good());
+  ASSERT_TRUE(file.saveFile((folder / "jpeg").c_str(), EXS_JPEGProcess14SV1).good());
+  DJEncoderRegistration::cleanup();
+  EXPECT_EQ(readOnly(folder / "jpeg").values, nativePixels());
+}
+
+TEST(Syntaxes, codeStreamsOfAnotherSizeAreRefused) {
+  GLISSON_NEEDS_DATA("dicom_seg_rtstruct");
+  const test::TemporaryFolder folder;
+  const auto taller = [](DcmDataset& data) { data.putAndInsertUint16(DCM_Rows, 65); };
+  for (const char* name : {"emri_small_RLE.dcm", "emri_small_jpeg_ls_lossless.dcm"})
+    EXPECT_THROW(readOnly(placed(name, folder / name, taller)), BadInput) << name;
+  const auto eightBits = [](DcmDataset& data) {
+    data.putAndInsertUint16(DCM_BitsAllocated, 8);
+    data.putAndInsertUint16(DCM_BitsStored, 8);
+    data.putAndInsertUint16(DCM_HighBit, 7);
+  };
+  for (const char* name : {"emri_small_RLE.dcm", "emri_small_jpeg_ls_lossless.dcm"})
+    EXPECT_THROW(readOnly(placed(name, folder / name, eightBits)), BadInput) << name;
+}
+
+TEST(Syntaxes, jpeg2000IsNamed) {
+  GLISSON_NEEDS_DATA("dicom_seg_rtstruct");
+  const test::TemporaryFolder folder;
+  const ScanResult found = scan(placed("emri_small_jpeg_2k_lossless.dcm", folder / "j2k"));
+  ASSERT_EQ(found.series.size(), 1U);
+  EXPECT_THAT(found.series.front().error.value_or(""), HasSubstr("JPEG 2000"));
+  EXPECT_THROW(readSeries(found.series.front()), BadInput);
+}
+
+TEST(Syntaxes, floatAndDoublePixelsAreReadAsTheyAre) {
+  GLISSON_NEEDS_DATA("dicom_seg_rtstruct");
+  const ScanResult asFloat = scan(pydicomFile("parametric_map_float.dcm"));
+  const ScanResult asDouble = scan(pydicomFile("parametric_map_double_float.dcm"));
+  ASSERT_EQ(asFloat.series.size(), 1U) << asFloat.skipped.at(0).reason;
+  ASSERT_EQ(asDouble.series.size(), 1U) << asDouble.skipped.at(0).reason;
+  const image::ScalarVolume a = readSeries(asFloat.series.front());
+  const image::ScalarVolume b = readSeries(asDouble.series.front());
+  EXPECT_EQ(a.values.size(), 128U * 128U);
+  EXPECT_GT(std::set<float>(a.values.begin(), a.values.end()).size(), 100U);
+  EXPECT_EQ(b.values.size(), 128U * 128U);
+  EXPECT_GT(std::set<float>(b.values.begin(), b.values.end()).size(), 100U);
+}
+
+TEST(Syntaxes, whatHoldsNoImageIsListed) {
+  GLISSON_NEEDS_DATA("dicom_seg_rtstruct");
+  const ScanResult found = scan(test::sharedData() / "dicom_seg_rtstruct" / "rt-utils");
+  EXPECT_EQ(found.skipped.size(), 3U);
+  for (const SkippedFile& s : found.skipped) EXPECT_THAT(s.reason, HasSubstr("RT Structure Set"));
+  const ScanResult labels = scan(test::sharedData() / "dicom_seg_rtstruct" / "dcmqi" / "liver.dcm");
+  ASSERT_EQ(labels.skipped.size(), 1U);
+  EXPECT_THAT(labels.skipped.front().reason, HasSubstr("Segmentation"));
+}
+
+TEST(Syntaxes, obliqueImagesWithOtherRowThanColumnSpacingKeepTheirPlace) {
+  GLISSON_NEEDS_DATA("dicom_seg_rtstruct");
+  const ScanResult found = scan(test::sharedData() / "dicom_seg_rtstruct" / "rt-utils" / "oriented_data");
+  ASSERT_EQ(found.series.size(), 1U);
+  const Series& s = found.series.front();
+  ASSERT_FALSE(s.error) << *s.error;
+  // As dcmdump shows them: (0020,0032) of 0.dcm and 2.dcm, (0028,0030) 3.5\2.5, 50 rows, 100 columns.
+  EXPECT_EQ(s.grid.size, Eigen::Vector3i(100, 50, 3));
+  EXPECT_NEAR(s.grid.spacing_mm.x(), 2.5, 1e-12);
+  EXPECT_NEAR(s.grid.spacing_mm.y(), 3.5, 1e-12);
+  EXPECT_LT((s.grid.indexToLps({0, 0, 0}) - Eigen::Vector3d(123, -432, 30)).norm(), 1e-6);
+  EXPECT_LT((s.grid.indexToLps({0, 0, 2}) - Eigen::Vector3d(122.0159697, -428.1596334, 38.0798058)).norm(), 1e-3);
+  const Eigen::Vector3d row(.9541666, -.2080757, .2151061);
+  EXPECT_LT((s.grid.indexToLps({99, 0, 0}) - s.grid.indexToLps({0, 0, 0}) - 99 * 2.5 * row).norm(), 1e-3);
+  EXPECT_NO_THROW(readSeries(s));
+}
+
+TEST(Syntaxes, siemensMosaicsAreNamed) {
+  GLISSON_NEEDS_DATA("siemens_mre_phase");
+  const ScanResult found = scan(test::sharedData() / "siemens_mre_phase" / "phase_046");
+  ASSERT_FALSE(found.series.empty());
+  for (const Series& s : found.series) EXPECT_THAT(s.error.value_or(""), HasSubstr("mosaic"));
+}
+
+}  // namespace
+}  // namespace glisson::dicom
