@@ -9,6 +9,7 @@
 
 #include "anatomy/triangle_mesh.h"
 #include "image/volume.h"
+#include "render/backend.h"
 #include "render/picture.h"
 
 class vtkRenderer;  // shown by pointer only: no VTK header here
@@ -44,6 +45,7 @@ struct SliceOverlayOptions {
   int pixelsPerVoxel = 4;
   double grid_mm = 10.0;  ///< spacing of the green grid
   bool decorate = true;   ///< scale bar, legend, orientation letters, research-use line, caption
+  bool outlines = true;   ///< of the moved liver and vessels, in each channel
   std::optional<Eigen::Vector3d> zoomCentre_lps_mm{};  ///< draw an inset magnified around this point
   double zoom_mm = 40.0;
   std::optional<double>

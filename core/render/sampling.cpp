@@ -79,7 +79,7 @@ image::DisplacementField extended(const image::DisplacementField& u_mm, const im
           if ((di != 0 || dj != 0 || dk != 0) && grid.contains(q)) visit(grid.linear(q), q);
         }
   };
-  std::vector<Eigen::Vector3i> front;
+  std::vector<Eigen::Vector3i> front, reached;
   for (int k = 0; k < grid.size.z(); ++k)
     for (int j = 0; j < grid.size.y(); ++j)
       for (int i = 0; i < grid.size.x(); ++i)
@@ -102,8 +102,27 @@ image::DisplacementField extended(const image::DisplacementField& u_mm, const im
       });
       out.values[grid.linear(c)] = sum / static_cast<float>(count);
     }
+    reached.insert(reached.end(), next.begin(), next.end());
     front = std::move(next);
   }
+  // Fronts from two sides meet in a crease, where x + u(x) could fold: relax it towards a harmonic continuation.
+  constexpr int sweeps = 12;
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (std::size_t m = 0; m < reached.size(); ++m) {
+      const Eigen::Vector3i& c = reached[m];
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      float weight = 0.0F;
+      for (int axis = 0; axis < 3; ++axis)
+        for (const int side : {-1, 1}) {
+          Eigen::Vector3i q = c;
+          q[axis] += side;
+          if (!grid.contains(q) || layer[grid.linear(q)] == 255) continue;
+          const auto w = static_cast<float>(1.0 / (grid.spacing_mm[axis] * grid.spacing_mm[axis]));
+          sum += w * out.values[grid.linear(q)];
+          weight += w;
+        }
+      if (weight > 0.0F) out.values[grid.linear(c)] = sum / weight;
+    }
   return out;
 }
 

@@ -39,7 +39,7 @@ Window windowOf(const image::ScalarVolume& mri, const image::ScalarVolume& liver
   };
   const float p1 = percentile(0.01), p50 = percentile(0.5), p99 = percentile(0.995);
   // Contrast for vessels: black lies well below the darkest liver, white at its brightest percent.
-  Window w{p1 - 1.0F * (p50 - p1) - 0.5F * (p99 - p50), p99};
+  Window w{p1 - (p50 - p1) - 0.9F * (p99 - p50), p99};
   if (!(w.high - w.low > 1e-6F * std::max(1.0F, std::abs(w.high))))
     w = {std::min(0.0F, w.high), std::max(w.high, 0.0F)};
   if (!(w.high > w.low)) w.high = w.low + 1.0F;
@@ -67,9 +67,11 @@ class Composer {
         mre_(scene.u_mre_mm, liver_, reach_mm_),
         atlas_(scene.u_atlas_mm, liver_, reach_mm_) {}
 
-  Picture draw(const SlicePlane& plane, Palette palette, double grid_mm) const {
-    const std::vector<float> atlas = channel(plane, atlas_), mre = channel(plane, mre_);
-    const std::vector<float> grid = gridCover(plane, grid_mm);
+  Picture draw(const SlicePlane& plane, const SliceOverlayOptions& options) const {
+    const Palette palette = options.palette;
+    const std::vector<float> atlas = channel(plane, atlas_, options.outlines),
+                             mre = channel(plane, mre_, options.outlines);
+    const std::vector<float> grid = gridCover(plane, options.grid_mm);
     Picture out = blankPicture(plane.width, plane.height, {0, 0, 0});
     const auto byte = [](float v) {
       return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(v, 0.0F, 1.0F)));
@@ -111,7 +113,7 @@ class Composer {
 
  private:
   /// Brightness 0..1 of one channel: windowed liver, dimmed surroundings, outline of the liver and the vessels.
-  std::vector<float> channel(const SlicePlane& plane, const State& state) const {
+  std::vector<float> channel(const SlicePlane& plane, const State& state, bool outlines) const {
     const LpsToIndex toMri(scene_.mri.grid), toLiver(liver_.grid);
     const auto width = static_cast<std::size_t>(plane.width);
     std::vector<float> out(width * static_cast<std::size_t>(plane.height));
@@ -130,6 +132,7 @@ class Composer {
             out[n] = dimmed * window_(sampleLinear(scene_.mri, toMri(y)));
         }
     });
+    if (!outlines) return out;
     outline(plane, phi, out);
     vesselCut(plane, state, out);
     return out;
@@ -254,7 +257,7 @@ Picture sliceOverlay(const RetractionScene& scene, const SliceOverlayOptions& op
     const Eigen::Vector2d margin = Eigen::Vector2d::Constant(*options.margin_mm / plane.mmPerPixel);
     plane = cropOf(plane, low - margin, high + margin);
   }
-  Picture picture = composer.draw(plane, options.palette, options.grid_mm);
+  Picture picture = composer.draw(plane, options);
   if (!scene.valid) drawNotValid(picture);
   if (!options.decorate) return picture;
 
@@ -274,7 +277,7 @@ Picture sliceOverlay(const RetractionScene& scene, const SliceOverlayOptions& op
   if (options.zoomCentre_lps_mm) {
     const int side = std::max(160, static_cast<int>(0.78 * std::min(picture.width, picture.height)));
     frame.insetPlane = zoomOf(plane, *options.zoomCentre_lps_mm, options.zoom_mm, side);
-    inset = composer.draw(*frame.insetPlane, options.palette, options.grid_mm);
+    inset = composer.draw(*frame.insetPlane, options);
     if (!scene.valid) drawNotValid(inset);
     frame.inset = &inset;
     frame.insetTitle =

@@ -39,7 +39,7 @@ TEST(SliceOverlay, equalFieldsArePurelyPurple) {
     green += p.rgb[n + 1] > 0 ? 1 : 0;
     lit += p.rgb[n] > 0 ? 1 : 0;
   }
-  EXPECT_GT(lit, p.rgb.size() / 3 / 4);
+  EXPECT_GT(lit, p.rgb.size() / 3 / 10);
   EXPECT_GT(green, 0U);
   const CountedPixels count = countChannels(p);
   EXPECT_EQ(count.redOnly + count.blueOnly, 0U);
@@ -68,13 +68,13 @@ TEST(SliceOverlay, greenIsTheGridAlone) {
 /// picture), and a blue strip of the same area on the other side.
 TEST(SliceOverlay, translationGivesStripsOfItsArea) {
   const RetractionScene scene = test::sceneFrom(plainGrid(), box({5, 0, 0}, {0, 0, 0}));
-  const Picture p = sliceOverlay(scene, {.slice = 4, .pixelsPerVoxel = 4, .decorate = false});
-  const CountedPixels count = countChannels(p, 128);
-  // The mask holds 41 × 31 voxel centres: its level set ½ encloses 41 × 31 mm.
-  const double strip_px = 5.0 * 31.0 * 16.0, edge_px = 2.0 * 31.0 * 4.0;
-  EXPECT_NEAR(static_cast<double>(count.redOnly), strip_px, edge_px);
-  EXPECT_NEAR(static_cast<double>(count.blueOnly), strip_px, edge_px);
-  EXPECT_NEAR(static_cast<double>(count.both), 36.0 * 31.0 * 16.0, 2.0 * edge_px);
+  const Picture p = sliceOverlay(scene, {.slice = 4, .pixelsPerVoxel = 4, .decorate = false, .outlines = false});
+  const CountedPixels count = countChannels(p, 100);
+  // The mask holds 41 × 31 voxel centres: its level set ½ encloses 41 × 31 mm, 16 pixels a mm²; one row of pixels may
+  // round either way along the edges.
+  EXPECT_NEAR(static_cast<double>(count.redOnly), 5.0 * 31.0 * 16.0, 2.0 * 31.0 * 4.0);
+  EXPECT_NEAR(static_cast<double>(count.blueOnly), 5.0 * 31.0 * 16.0, 2.0 * 31.0 * 4.0);
+  EXPECT_NEAR(static_cast<double>(count.both), 36.0 * 31.0 * 16.0, 2.0 * (36.0 + 31.0) * 4.0);
   const SlicePlane plane = planeOfSlice(scene.mri.grid, 4, 4);
   const Eigen::Vector2d red = plane.toPixel({-18.0, 3.0, 0.0}), blue = plane.toPixel({23.0, 3.0, 0.0});
   EXPECT_LT(red.x(), blue.x()) << "patient right is on the left of the picture";
@@ -183,7 +183,7 @@ TEST(SliceOverlay, invalidIsMarked) {
   std::size_t amber = 0;
   for (std::size_t n = 0; n < marked.rgb.size(); n += 3)
     amber += marked.rgb[n] > 240 && std::abs(marked.rgb[n + 1] - 176) < 12 && marked.rgb[n + 2] < 60 ? 1 : 0;
-  EXPECT_GT(amber, marked.rgb.size() / 3 / 100);
+  EXPECT_GT(amber, marked.rgb.size() / 3 / 200);
   EXPECT_NE(good.rgb, marked.rgb);
 }
 

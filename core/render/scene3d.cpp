@@ -1,0 +1,289 @@
+#include "render/scene3d.h"
+
+#include <vtkCamera.h>
+#include <vtkLightKit.h>
+#include <vtkNew.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "render/colour_map.h"
+#include "render/font.h"
+#include "render/sampling.h"
+#include "render/scene3d_parts.h"
+#include "render/slice_frame.h"
+
+namespace glisson::render {
+namespace {
+
+constexpr double grid_mm = 10.0;
+constexpr double apart_mm = 3.0;  ///< vessels that lie this far apart have fully their own colour
+
+struct SceneColours {
+  Rgb mre, atlas, agree;
+};
+
+SceneColours coloursOf(Palette palette) {
+  if (palette == Palette::ColourBlind) return {{40, 130, 255}, {255, 140, 0}, {245, 245, 245}};
+  return {{50, 80, 255}, {255, 40, 40}, {190, 60, 230}};
+}
+
+Rgb mixed(Rgb a, Rgb b, double t) {
+  const auto one = [t](std::uint8_t x, std::uint8_t y) {
+    return static_cast<std::uint8_t>(std::lround(x + t * (y - x)));
+  };
+  return {one(a.r, b.r), one(a.g, b.g), one(a.b, b.b)};
+}
+
+/// Where the eye is, what is up, and which faces of the box lie behind the scene.
+struct Viewpoint {
+  Eigen::Vector3d fromEye;  ///< unit, into the picture
+  Eigen::Vector3d up;
+  std::vector<std::pair<int, bool>> walls;  ///< axis, at the upper end
+};
+
+Viewpoint viewpointOf(View3D view) {
+  switch (view) {
+    case View3D::Anterior:
+      return {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(), {{1, true}}};
+    case View3D::Inferior:
+      return {Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitY(), {{2, true}}};
+    case View3D::Oblique:
+      break;
+  }
+  return {Eigen::Vector3d(0.5, 0.85, -0.36).normalized(), Eigen::Vector3d::UnitZ(), {{1, true}, {2, false}}};
+}
+
+Eigen::AlignedBox3d roundedOut(const Eigen::AlignedBox3d& box, double step) {
+  return {Eigen::Vector3d((box.min().array() / step).floor() * step),
+          Eigen::Vector3d((box.max().array() / step).ceil() * step)};
+}
+
+std::string cm(double mm) {
+  const long tenths = std::lround(mm);
+  return tenths % 10 == 0 ? std::to_string(tenths / 10)
+                          : std::to_string(tenths / 10) + "." + std::to_string(std::abs(tenths % 10));
+}
+
+class Stage {
+ public:
+  Stage(vtkRenderer* renderer, const SceneOptions3D& options, double pixelScale)
+      : renderer_(renderer),
+        view_(viewpointOf(options.view)),
+        width_(options.width * pixelScale),
+        height_(options.height * pixelScale),
+        font_px_(std::clamp(options.height / 46.0, 11.0, 60.0) * pixelScale),
+        line_px_(std::max(1.0, options.height / 1100.0) * pixelScale) {}
+
+  void add(const vtkSmartPointer<vtkProp>& prop) { renderer_->AddViewProp(prop); }
+
+  /// Grid walls behind and below, centimetre labels along their edges, letters of the patient's sides, a 5 cm bar.
+  void drawGrid(const Eigen::AlignedBox3d& box) {
+    for (const auto& [axis, upper] : view_.walls) {
+      const double at = upper ? box.max()[axis] : box.min()[axis];
+      add(gridLines(box, axis, at, grid_mm, false, line_px_));
+      add(gridLines(box, axis, at, grid_mm, true, 1.6 * line_px_));
+    }
+    const auto [backAxis, backUpper] = view_.walls.front();
+    Eigen::Vector3d corner = box.min();
+    corner[backAxis] = backUpper ? box.max()[backAxis] : box.min()[backAxis];
+    const double off = 0.035 * box.diagonal().norm();
+    const int vertical = backAxis == 2 ? 1 : 2;  // screen-vertical axis of the back wall
+    // Bottom of the back wall on the screen: z low, or y high (posterior) seen from below.
+    const double low = vertical == 2 ? box.min()[vertical] : box.max()[vertical];
+    const double outward = vertical == 2 ? -1.0 : 1.0;
+    const bool floor = view_.walls.size() > 1;
+    Eigen::Vector3d edge = corner;
+    edge[vertical] = low + outward * off;
+    if (floor)
+      edge = Eigen::Vector3d(0.0, box.min().y() - 0.8 * off, box.min().z() - 0.5 * off);  // front edge of the floor
+    for (const double x : gridLines_mm(box.min().x(), box.max().x(), 20.0)) {
+      edge.x() = x;
+      add(label3D(edge, cm(x), colours::gridGreen, 0.8 * font_px_, false));
+    }
+    Eigen::Vector3d side = corner;
+    side.x() = box.min().x() - 1.1 * off;
+    for (const double v : gridLines_mm(box.min()[vertical], box.max()[vertical], 20.0)) {
+      side[vertical] = v;
+      add(label3D(side, cm(v), colours::gridGreen, 0.8 * font_px_, false));
+    }
+    if (floor)
+      for (const double y : gridLines_mm(box.min().y(), box.max().y() - 20.0, 20.0))
+        add(label3D({box.max().x() + 1.1 * off, y, box.min().z()}, cm(y), colours::gridGreen, 0.8 * font_px_, false));
+
+    // Letters: the sides of the patient at the middle of each wall's edges.
+    const Eigen::Vector3d centre = box.center();
+    const auto letter = [&](Eigen::Vector3d at, const char* text) {
+      add(label3D(at, text, colours::light, 1.5 * font_px_, true));
+    };
+    Eigen::Vector3d at = corner;
+    at[vertical] = centre[vertical];
+    at.x() = box.min().x() - 2.3 * off;
+    letter(at, "R");
+    at.x() = box.max().x() + (floor ? 2.3 : 1.2) * off;
+    letter(at, "L");
+    at.x() = centre.x();
+    at[vertical] = vertical == 2 ? box.max().z() + 1.0 * off : box.min().y() - 1.0 * off;
+    letter(at, vertical == 2 ? "S" : "A");
+    if (floor) {
+      letter({centre.x(), box.min().y() - 2.2 * off, box.min().z() - 1.0 * off}, "A");
+    } else {
+      at[vertical] = low + outward * 2.1 * off;
+      letter(at, vertical == 2 ? "I" : "P");
+    }
+
+    // The bar lies in the back wall, so it has the grid's scale in every camera.
+    Eigen::Vector3d b = corner;
+    b[vertical] = vertical == 2 ? box.max()[vertical] - 0.6 * off : box.min()[vertical] + 0.6 * off;
+    b.x() = std::ceil(box.max().x() / grid_mm) * grid_mm - 5.0;
+    Eigen::Vector3d a = b;
+    a.x() -= 50.0;
+    Eigen::Vector3d middle = 0.5 * (a + b);
+    middle[vertical] += (vertical == 2 ? -1.0 : 1.0) * 0.8 * off;
+    add(segments({{a, b}}, colours::light, 5.0 * line_px_));
+    add(label3D(middle, "5 cm", colours::light, font_px_, false));
+  }
+
+  void drawText(const RetractionScene& scene, const SceneColours& colour, double t) {
+    const double lineHeight = 1.55 * font_px_ / height_, side = 1.1 * font_px_;
+    double y = 1.0 - 1.9 * font_px_ / height_;
+    const double x = font_px_ / width_;
+    const auto row = [&](Rgb c, const std::string& text) {
+      add(screenSwatch(x, y, side / width_, side / height_, c));
+      add(screenText(x + 1.7 * font_px_ / width_, y + 0.1 * font_px_ / height_, text, colours::light, font_px_, false));
+      y -= lineHeight;
+    };
+    row(colour.mre, "MRE stiffness");
+    row(colour.atlas, "Atlas stiffness");
+    row(colour.agree, "agree");
+    row({150, 158, 168}, "liver at rest");
+    if (scene.retractorPoint_lps_mm) row({205, 210, 216}, "retractor");
+    row({50, 170, 95}, "grid 10 mm, labels in cm");
+    if (t < 1.0)
+      add(screenText(x, y, std::to_string(std::lround(100.0 * t)) + " % of the retraction", colours::light, font_px_,
+                     false));
+    std::vector<std::string> lines = wrapText(scene.caption, font_px_, width_ - 2.0 * font_px_);
+    double below = 0.7 * font_px_ / height_;
+    add(screenText(x, below, researchUseOnly, colours::warning, font_px_, false));
+    for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+      below += lineHeight;
+      add(screenText(x, below, *line, colours::faint, font_px_, false));
+    }
+  }
+
+  /// Drawn whether decorated or not: an invalid run must not look like a valid one.
+  void drawNotValidMark() {
+    add(screenText(0.5, 0.5, "NOT CONVERGED / OUTSIDE VALIDITY", colours::warning, 0.045 * width_, true, true,
+                   std::atan2(height_, width_) * 180.0 / 3.141592653589793));
+  }
+
+  /// Parallel projection: a centimetre of the grid is a centimetre everywhere in its plane.
+  void aim(const Eigen::AlignedBox3d& box, bool decorated) {
+    vtkCamera* camera = renderer_->GetActiveCamera();
+    const Eigen::Vector3d right = view_.fromEye.cross(view_.up).normalized(), up = right.cross(view_.fromEye);
+    double halfWidth = 0.0, halfHeight = 0.0;
+    const Eigen::Vector3d centre = box.center();
+    for (int n = 0; n < 8; ++n) {
+      const Eigen::Vector3d d = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(n)) - centre;
+      halfWidth = std::max(halfWidth, std::abs(d.dot(right)));
+      halfHeight = std::max(halfHeight, std::abs(d.dot(up)));
+    }
+    const double margin = decorated ? 1.26 : 1.04;
+    const double scale = margin * std::max(halfHeight, halfWidth * height_ / width_);
+    const double distance = 4.0 * box.diagonal().norm();
+    const Eigen::Vector3d focus = centre - (decorated ? 0.03 * scale : 0.0) * up;
+    const Eigen::Vector3d eye = focus - distance * view_.fromEye;
+    camera->ParallelProjectionOn();
+    camera->SetFocalPoint(focus.data());
+    camera->SetPosition(eye.data());
+    camera->SetViewUp(up.data());
+    camera->SetParallelScale(scale);
+    renderer_->ResetCameraClippingRange();
+  }
+
+ private:
+  vtkRenderer* renderer_;
+  Viewpoint view_;
+  double width_, height_, font_px_, line_px_;
+};
+
+}  // namespace
+
+void populateScaled(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options,
+                    double pixelScale) {
+  if (!renderer) throw BadArgument("populate3D needs a renderer");
+  if (!(options.t >= 0.0 && options.t <= 1.0)) throw BadArgument("the fraction of the displacement must lie in [0, 1]");
+  renderer->RemoveAllViewProps();
+  renderer->RemoveAllLights();
+  renderer->SetBackground(0.055, 0.062, 0.075);
+  renderer->SetBackground2(0.13, 0.145, 0.17);
+  renderer->GradientBackgroundOn();
+  vtkNew<vtkLightKit> lights;
+  lights->SetKeyLightIntensity(0.85);
+  lights->AddLightsToRenderer(renderer);
+
+  const image::ScalarVolume liver = asScalar(scene.liver);
+  const double reach_mm = 3.0 * liver.grid.spacing_mm.maxCoeff() + scene.retractorDiameter_mm;
+  const image::DisplacementField mreField = extended(scene.u_mre_mm, liver, reach_mm);
+  const image::DisplacementField atlasField = extended(scene.u_atlas_mm, liver, reach_mm);
+  const InverseMap mre(mreField, true), atlas(atlasField, true);
+  const auto moving = [t = options.t](const InverseMap& map) -> Motion {
+    return [&map, t](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p + t * map.at(p); };
+  };
+
+  Eigen::AlignedBox3d box;
+  const auto cover = [&box](const anatomy::TriangleMesh& mesh, const Motion& motion) {
+    for (Eigen::Index n = 0; n < mesh.vertices_lps_mm.cols(); ++n) box.extend(motion(mesh.vertices_lps_mm.col(n)));
+  };
+  const Motion still = [](const Eigen::Vector3d& p) { return p; };
+  // The frame of the picture is that of the whole motion, so that the steps of a film share one camera.
+  const Motion wholeMre = [&mre](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p + mre.at(p); };
+  const Motion wholeAtlas = [&atlas](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p + atlas.at(p); };
+  for (const auto& motion : {still, wholeMre, wholeAtlas}) {
+    cover(scene.liverSurface, motion);
+    cover(scene.vesselSurface, motion);
+  }
+  if (box.isEmpty()) throw BadInput("the 3-D scene is empty: it has neither a liver surface nor vessels");
+
+  Stage stage(renderer, options, pixelScale);
+  const SceneColours colour = coloursOf(options.palette);
+  const auto paint = [&](Rgb own) -> Paint {
+    return [&, own](const Eigen::Vector3d& p) {
+      const double apart = options.t * (mre.at(p) - atlas.at(p)).norm();
+      return mixed(colour.agree, own, std::clamp(apart / apart_mm, 0.0, 1.0));
+    };
+  };
+  if (scene.vesselSurface.triangles.cols() > 0) {
+    stage.add(solidSurface(scene.vesselSurface, moving(atlas), paint(colour.atlas)));
+    stage.add(solidSurface(scene.vesselSurface, moving(mre), paint(colour.mre)));
+  }
+  if (scene.retractorPoint_lps_mm) {
+    const Eigen::Vector3d contact = moving(mre)(*scene.retractorPoint_lps_mm);
+    const Eigen::Vector3d centre = contact - 0.5 * scene.retractorDiameter_mm * scene.retractorDirection.normalized();
+    stage.add(steelBar(centre, scene.retractorAxis, scene.retractorLength_mm, scene.retractorDiameter_mm));
+    for (const double end : {-0.5, 0.5})
+      box.extend(Eigen::Vector3d(centre + end * scene.retractorLength_mm * scene.retractorAxis.normalized()));
+  }
+  if (scene.liverSurface.triangles.cols() > 0) {
+    stage.add(glassSurface(scene.liverSurface, still, {176, 184, 196}, 0.05, 0.55));
+    if (options.t > 0.0) {
+      stage.add(glassSurface(scene.liverSurface, moving(atlas), colour.atlas, 0.02, 0.40));
+      stage.add(glassSurface(scene.liverSurface, moving(mre), colour.mre, 0.02, 0.40));
+    }
+  }
+  box = roundedOut({box.min() - Eigen::Vector3d::Constant(4.0), box.max() + Eigen::Vector3d::Constant(4.0)}, grid_mm);
+  if (options.decorate) {
+    stage.drawGrid(box);
+    stage.drawText(scene, colour, options.t);
+  }
+  if (!scene.valid) stage.drawNotValidMark();
+  stage.aim(box, options.decorate);
+}
+
+void populate3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options) {
+  populateScaled(renderer, scene, options, 1.0);
+}
+
+}  // namespace glisson::render
