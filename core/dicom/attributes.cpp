@@ -56,7 +56,8 @@ std::string text(DcmItem& item, const DcmTagKey& tag) {
   DcmElement* element = nullptr;
   if (item.findAndGetElement(tag, element).bad() || element == nullptr) return {};
   OFString value;
-  if (element->getOFStringArray(value).good() && element->ident() != EVR_UN && element->ident() != EVR_OB)
+  // Not normalised by DCMTK, which takes time quadratic in the number of values.
+  if (element->ident() != EVR_UN && element->ident() != EVR_OB && element->getOFStringArray(value, OFFalse).good())
     return trimmed(std::string(value.c_str(), value.size()));
   Uint8* raw = nullptr;
   if (element->getUint8Array(raw).good() && raw != nullptr)
