@@ -9,8 +9,8 @@
 namespace glisson::mechanics {
 
 struct MultigridOptions {
-  int degree = 4;           ///< of the Chebyshev smoother, before and after each coarse correction
-  double smoothed = 16;     ///< the smoother acts on eigenvalues of D⁻¹K in [λmax / smoothed, λmax]
+  int degree = 5;           ///< of the Chebyshev smoother, before and after each coarse correction
+  double smoothed = 24;     ///< the smoother acts on eigenvalues of D⁻¹K in [λmax / smoothed, λmax]
   int coarsestDofs = 1500;  ///< factorised at or below this size
 };
 

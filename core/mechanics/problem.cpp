@@ -1,7 +1,9 @@
 #include "mechanics/problem.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <tuple>
 
 #include "base/error.h"
 
@@ -84,6 +86,14 @@ int VoxelMesh::nodeAt(int i, int j, int k) const {
   const auto ny = static_cast<std::size_t>(cells_.y() + 1);
   return nodeOfLattice_[(static_cast<std::size_t>(k) * ny + static_cast<std::size_t>(j)) * nx +
                         static_cast<std::size_t>(i)];
+}
+
+bool VoxelMesh::isFilled(int i, int j, int k) const {
+  const Eigen::Vector3i wanted(i, j, k);
+  const auto before = [](const Eigen::Vector3i& a, const Eigen::Vector3i& b) {
+    return std::tuple(a.z(), a.y(), a.x()) < std::tuple(b.z(), b.y(), b.x());
+  };
+  return std::binary_search(filled_.begin(), filled_.end(), wanted, before);
 }
 
 std::array<int, 8> VoxelMesh::nodesOf(int filledCell) const {

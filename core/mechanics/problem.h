@@ -10,10 +10,10 @@ namespace glisson::mechanics {
 
 /// A solid made of equal box-shaped cells, one Young's modulus each. SI units, the grid's own axes.
 struct VoxelBody {
-  Eigen::Vector3i cells = Eigen::Vector3i::Zero();    ///< nx, ny, nz
-  Eigen::Vector3d h_m = Eigen::Vector3d::Zero();      ///< cell edge lengths, m
-  std::vector<double> E_Pa;                           ///< nx·ny·nz, x fastest; 0 = empty
-  double poisson = 0.45;                              ///< in (−1, 0.5)
+  Eigen::Vector3i cells = Eigen::Vector3i::Zero();  ///< nx, ny, nz
+  Eigen::Vector3d h_m = Eigen::Vector3d::Zero();    ///< cell edge lengths, m
+  std::vector<double> E_Pa;                         ///< nx·ny·nz, x fastest; 0 = empty
+  double poisson = 0.45;                            ///< in (−1, 0.5)
   double density_kg_m3 = 1060.0;
 
   std::size_t cell(int i, int j, int k) const {
@@ -23,12 +23,13 @@ struct VoxelBody {
   }
 };
 
-/// The nodes (corners) of the non-empty cells, numbered 0 .. nodeCount−1 in lattice order (x fastest). Node (i, j, k) of
-/// the (nx+1)(ny+1)(nz+1) lattice lies at (i, j, k) ∘ h_m. Local corner a of a cell is at (a & 1, a >> 1 & 1, a >> 2 & 1).
+/// The nodes (corners) of the non-empty cells, numbered 0 .. nodeCount−1 in lattice order (x fastest). Node (i, j, k)
+/// of the (nx+1)(ny+1)(nz+1) lattice lies at (i, j, k) ∘ h_m. Local corner a of a cell is at (a & 1, a >> 1 & 1, a >> 2
+/// & 1).
 class VoxelMesh {
  public:
-  /// Throws BadInput naming the cell (i, j, k) where E is negative or not finite, poisson outside (−1, 0.5), density not
-  /// positive, no cell filled.
+  /// Throws BadInput naming the cell (i, j, k) where E is negative or not finite, poisson outside (−1, 0.5), density
+  /// not positive, no cell filled.
   explicit VoxelMesh(const VoxelBody& body);
 
   int nodeCount() const { return static_cast<int>(lattice_.size()); }
@@ -40,6 +41,8 @@ class VoxelMesh {
   /// Filled cells by (i, j, k), in lattice order.
   Eigen::Vector3i cellOf(int filledCell) const { return filled_[static_cast<std::size_t>(filledCell)]; }
   std::array<int, 8> nodesOf(int filledCell) const;
+  /// False outside the grid.
+  bool isFilled(int i, int j, int k) const;
   const Eigen::Vector3d& h_m() const { return h_m_; }
   const Eigen::Vector3i& cells() const { return cells_; }
 
@@ -83,11 +86,11 @@ struct Problem {
 enum class SolveStatus { Converged, StoppedAtLimit, Indefinite, NotFinite };
 
 struct SolveReport {
-  std::string kind;        ///< "multigrid-pcg", "factorised", "cg", ... and why, where "auto" chose
+  std::string kind;  ///< "multigrid-pcg", "factorised", "cg", ... and why, where "auto" chose
   std::string why;
   SolveStatus status = SolveStatus::StoppedAtLimit;
   int iterations = 0;
-  double residual = 0.0;   ///< true relative residual ‖f − K u‖ / ‖f‖, recomputed at the end
+  double residual = 0.0;  ///< true relative residual ‖f − K u‖ / ‖f‖, recomputed at the end
   double tolerance = 0.0;
   double seconds = 0.0;
   bool converged() const { return status == SolveStatus::Converged; }
