@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "base/error.h"
@@ -51,7 +52,7 @@ FrameBasis::FrameBasis(const VoxelMesh& mesh, Sites sites, const KernelOptions& 
   if (options_.order != 1 && options_.order != 2)
     throw BadInput("mesh-free frames of order " + std::to_string(options_.order) +
                    "; choose 1 (affine, 12 degrees of freedom) or 2 (quadratic, 30)");
-  if (options_.alpha == 0.0) options_.alpha = options_.order == 1 ? 2.2 : 1.6;
+  if (options_.alpha == 0.0) options_.alpha = options_.order == 1 ? 2.2 : 1.8;
   if (!(options_.alpha >= 1.0 && options_.alpha <= 6.0))
     throw BadInput("mesh-free support radius alpha " + std::to_string(options_.alpha) + "; choose a value in [1, 6]");
 
@@ -185,6 +186,7 @@ std::vector<FrameBasis::Column> FrameBasis::voronoi(const VoxelMesh& mesh, const
     });
   }
 
+  const double edge = mesh.h_m().maxCoeff();
   std::vector<Column> columns(static_cast<std::size_t>(frames()));
   parallelChunks(columns.size(), 1, [&](std::size_t begin, std::size_t) {
     progress.check();
@@ -212,10 +214,22 @@ std::vector<FrameBasis::Column> FrameBasis::voronoi(const VoxelMesh& mesh, const
         }
         if (!inside(next)) zeroSources.emplace_back(n, 0.5 * length);
       });
-    for (const int g : near)
-      for (const auto& s : start[static_cast<std::size_t>(g)])
-        if (inside(s.first)) zeroSources.push_back(s);
     graph.shortest(borderSources, inside, border);
+    // The kernel ends, in each neighbouring cell, on the surface that is as far from the border as the neighbour's
+    // site.
+    std::map<int, double> reach;
+    for (const int g : near)
+      for (const auto& [node, d] : start[static_cast<std::size_t>(g)]) {
+        const double through = border[static_cast<std::size_t>(node)] + d;
+        const auto [it, fresh] = reach.emplace(g, through);
+        if (!fresh) it->second = std::min(it->second, through);
+      }
+    for (const int n : domain) {
+      const auto at = static_cast<std::size_t>(n);
+      if (owner[at] == f || !std::isfinite(border[at])) continue;
+      const double ahead = reach[owner[at]] - border[at];
+      if (ahead <= edge) zeroSources.emplace_back(n, std::max(0.0, ahead));
+    }
     graph.shortest(zeroSources, inside, zero);
     for (const int n : domain) {
       const auto at = static_cast<std::size_t>(n);

@@ -14,13 +14,13 @@ namespace glisson::mechanics {
 /// ball
 ///           that is connected with its site inside the ball, so that folded lobes stay apart.
 /// Voronoi   the ratio of distances to the site and to the border of its Voronoi cell, distances along paths through
-///           voxels: 1 at the site, ½ at the border, 0 at the neighbouring sites [faure2011sparse].
+///           voxels: 1 at the site, ½ at the border, 0 from the neighbouring sites on [faure2011sparse].
 enum class Kernel { Wendland, Voronoi };
 
 struct KernelOptions {
   Kernel kernel = Kernel::Wendland;
   int order = 1;       ///< 1: affine frames, 4 functions (12 degrees of freedom); 2: quadratic, 10 (30)
-  double alpha = 0.0;  ///< support radius over spacing, Wendland only; 0 = 2.2 affine, 1.6 quadratic
+  double alpha = 0.0;  ///< support radius over spacing, Wendland only; 0 = 2.2 affine, 1.8 quadratic
 };
 
 /// Scalar shape functions wᵢ(x) P_b((x − xᵢ)/hᵢ) at the voxel nodes; wᵢ = φᵢ/Σφ is a partition of unity (1e-12) and

@@ -19,7 +19,7 @@ struct MeshfreeOptions {
   int frames = 200;  ///< fewer are used, with a note, where the voxels are too coarse for so many
   Kernel kernel = Kernel::Wendland;
   int order = 1;       ///< 1: affine, 12 degrees of freedom a frame; 2: quadratic, 30
-  double alpha = 0.0;  ///< Wendland support radius over spacing; 0 = 2.2 affine, 1.6 quadratic
+  double alpha = 0.0;  ///< Wendland support radius over spacing; 0 = 2.2 affine, 1.8 quadratic
   std::uint64_t seed = 1;
   int lloydIterations = 25;
   std::vector<double> density;  ///< wish for frames, one positive value per filled cell; empty = uniform
