@@ -78,6 +78,8 @@ void setByDescription(Series& s, const ImageHeader& h) {
     set(s, SeriesRole::Other, because(part));
   } else if (const char* map = firstOf(type, {"\\adc", "\\fa\\", "\\t1 map", "\\t2 map", "\\p\\", "phase map"})) {
     set(s, SeriesRole::Other, because(map));
+  } else if (const char* quantity = firstOf(description, {"apparent diffusion", "adc map", "fractional anisotropy"})) {
+    set(s, SeriesRole::Other, because(quantity));
   } else if (s.modality == "MR" || s.modality == "CT") {
     set(s, SeriesRole::Anatomical, "plain " + s.modality + " images, no sign of elastography");
   } else {

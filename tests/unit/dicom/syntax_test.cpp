@@ -5,10 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <functional>
 #include <set>
+#include <sstream>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "dicom/series.h"
 #include "support/support.h"
 
@@ -103,6 +106,35 @@ TEST(Syntaxes, codeStreamsOfAnotherSizeAreRefused) {
   };
   for (const char* name : {"emri_small_RLE.dcm", "emri_small_jpeg_ls_lossless.dcm"})
     EXPECT_THROW(readOnly(placed(name, folder / name, eightBits)), BadInput) << name;
+}
+
+TEST(Syntaxes, damagedCompressedFilesGiveVoxelsOrAReason) {
+  GLISSON_NEEDS_DATA("dicom_seg_rtstruct");
+  const test::TemporaryFolder folder;
+  Random random(7);
+  for (const char* name : {"emri_small_RLE.dcm", "emri_small_jpeg_ls_lossless.dcm", "emri_small.dcm"}) {
+    std::ifstream in(placed(name, folder / name), std::ios::binary);
+    std::ostringstream all;
+    all << in.rdbuf();
+    const std::string whole = all.str();
+    for (int n = 0; n < 200; ++n) {
+      std::string damaged = whole;
+      const auto changes = 1 + random.below(20);
+      for (std::uint64_t c = 0; c < changes; ++c)
+        damaged[132 + random.below(whole.size() - 132)] = static_cast<char>(random.below(256));
+      if (n % 5 == 0) damaged.resize(132 + random.below(whole.size() - 132));
+      std::ofstream(folder / "damaged", std::ios::binary) << damaged;
+      const ScanResult found = scan(folder / "damaged");
+      EXPECT_EQ(found.series.empty(), !found.skipped.empty());
+      for (const Series& series : found.series) {
+        try {
+          EXPECT_EQ(readSeries(series).values.size(), series.grid.voxelCount());
+        } catch (const BadInput& e) {
+          EXPECT_GT(std::string(e.what()).size(), 20U);
+        }
+      }
+    }
+  }
 }
 
 TEST(Syntaxes, jpeg2000IsNamed) {
