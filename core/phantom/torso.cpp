@@ -117,9 +117,9 @@ double Torso::liverBlobs_mm(const Point& p) const {
 }
 
 double Torso::liver_mm(const Point& p) const {
-  double d = liverBlobs_mm(p) + liverOffset_mm_;
+  double d = liverBlobs_mm(p) + 0.35 * liverOffset_mm_;
   if (d > 30.0) return d;
-  for (const Ellipsoid& e : impressions_) d = without(d, e.distance_mm(p), 14.0);
+  for (const Ellipsoid& e : impressions_) d = without(d, e.distance_mm(p) - liverOffset_mm_, 14.0);
   d = smoothMin(d, caudate_.distance_mm(p), 8.0);
   const double cavity = body_mm(p) + wall_mm(p) + 2.5;
   d = smoothMax(d, cavity, 16.0);
@@ -131,9 +131,10 @@ double Torso::liver_mm(const Point& p) const {
 }
 
 void Torso::fitVolume() {
-  // A count on a coarse lattice, and a bisection of the offset that grows or shrinks the lobes.
+  // A count on a coarse lattice, and a bisection of the offset that fills or hollows the liver, mostly from below:
+  // the dome stays under the diaphragm.
   Random r = derived(seed_, 12);
-  targetVolume_mL_ = r.uniform(1250.0, 1850.0);
+  targetVolume_mL_ = r.uniform(1300.0, 1850.0);
   constexpr double h = 5.0;
   auto volume_mL = [&] {
     std::size_t count = 0;
@@ -150,8 +151,8 @@ void Torso::fitVolume() {
     return static_cast<double>(count) * h * h * h / 1000.0;
   };
   double grow = -22.0;
-  double shrink = 16.0;
-  for (int i = 0; i < 9; ++i) {
+  double shrink = 46.0;
+  for (int i = 0; i < 10; ++i) {
     liverOffset_mm_ = 0.5 * (grow + shrink);
     (volume_mL() > targetVolume_mL_ ? grow : shrink) = liverOffset_mm_;
   }

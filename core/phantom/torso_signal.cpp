@@ -59,7 +59,7 @@ Torso::Signal Torso::signal(const Point& p, double body, double liver, double ve
   c.over(cavity, scaled(fat, 1.05 + 0.22 * coarse + 0.12 * grain));
   // Mesenteric and omental vessels: where two smooth fields vanish together there runs a curve.
   const double threads = 22.0 * std::hypot(noise(p, 31.0, seed_ + 32), noise(p, 31.0, seed_ + 33));
-  c.over(std::max(threads - 1.3, cavity + 6.0), scaled(blood, 0.8));
+  c.over(std::max({threads - 1.3, cavity + 6.0, p.z() - 40.0}), scaled(blood, 0.8));
   const double dome = diaphragm_mm(p);
   if (dome > -5.0) {
     c.over(std::max(cavity, -dome - 1.2), diaphragmMuscle);

@@ -1,5 +1,6 @@
 #include <optional>
 
+#include "base/error.h"
 #include "phantom/vessel_tree.h"
 
 namespace glisson::phantom {
@@ -9,6 +10,9 @@ constexpr double portalRoot_mm = 6.3;
 constexpr double hepaticRoot_mm = 7.0;  // shared by the veins that open into the vena cava
 constexpr double capsuleGap_mm = 1.2;   // between a vessel's wall and the liver's surface
 constexpr double treeGap_mm = 1.0;      // between the walls of the two trees
+
+constexpr int portalTerminals = 150;
+constexpr int hepaticTerminals = 120;
 
 using Distance = std::function<double(const Point&)>;
 
@@ -68,25 +72,27 @@ int leaving(const VesselTree& tree, const Distance& liver_mm) {
   return -1;
 }
 
-}  // namespace
-
-LiverVessels growVessels(const Distance& liver_mm, const Point& low, const Point& high, const Point& portalHilum,
-                         const Point& hepaticConfluence, std::uint64_t seed) {
+LiverVessels growOnce(const Distance& liver_mm, const Point& low, const Point& high, const Point& portalHilum,
+                      const Point& hepaticConfluence, std::uint64_t seed, int attempt) {
   LiverVessels v{VesselTree(portalHilum, portalRoot_mm), VesselTree(hepaticConfluence, hepaticRoot_mm)};
-  Random random = derived(seed, 31);
+  Random random = derived(seed, 31 + 1000 * static_cast<std::uint64_t>(attempt));
   const Point extent = high - low;
 
   auto grow = [&](VesselTree& own, const VesselTree& other, const Point& terminal, bool toRoot) {
     return own.add(
         terminal,
-        [&](const Point& a, const Point& b, double radius) {
+        [&](const Point& a, const Point& b, double early) {
+          // A young tree's few branches stand for more flow than they will carry: rarely over 60 % of it.
+          const double radius = std::min(early, 0.84 * own.rootRadius_mm());
           return inside(liver_mm, a, b, radius) && clear(other, a, b, radius, treeGap_mm, false) &&
                  clear(own, a, b, radius, 0.0, true);
         },
         toRoot);
   };
-  // The first terminals make the main branches of textbook anatomy; where a liver's shape forbids one, it is pulled in.
+  // The first terminals make the main branches of textbook anatomy; where a liver's shape forbids one, it is
+  // pulled in.
   auto lead = [&](VesselTree& own, const VesselTree& other, const Point& from, Point to, bool toRoot) {
+    for (int i = 0; i < 3; ++i) to[i] += std::min(attempt, 12) * random.uniform(-2.0, 2.0);
     for (int i = 0; i < 12; ++i) {
       if (liver_mm(to) < -8.0 && grow(own, other, to, toRoot)) return;
       to = from + 0.92 * (to - from) + Point(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3));
@@ -94,15 +100,17 @@ LiverVessels growVessels(const Distance& liver_mm, const Point& low, const Point
   };
   lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-62, 14, -6), false);              // right trunk
   lead(v.hepatic, v.portal, hepaticConfluence, hepaticConfluence + Point(-84, 10, -34), true);  // right vein
-  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(34, -44, 30), true);  // left trunk, umbilical portion
-  lead(v.hepatic, v.portal, hepaticConfluence, hepaticConfluence + Point(-22, -58, -40), true);  // middle vein
+  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(34, -44, 30),
+       true);  // left trunk, umbilical portion
+  lead(v.hepatic, v.portal, hepaticConfluence, hepaticConfluence + Point(-22, -58, -40),
+       true);                                                                                    // middle vein
   lead(v.hepatic, v.portal, hepaticConfluence, hepaticConfluence + Point(46, -50, -12), false);  // left vein
   lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-58, -34, 24), false);              // right anterior
-  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-56, 20, -58), false);  // right posterior, inferior
-  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-66, 24, 44), false);   // right posterior, superior
+  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-56, 20, -58),
+       false);  // right posterior, inferior
+  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-66, 24, 44),
+       false);  // right posterior, superior
 
-  constexpr int portalTerminals = 150;
-  constexpr int hepaticTerminals = 120;
   double reach_mm = 26.0;  // a terminal far from the tree serves more tissue: take the far ones first
   int misses = 0;
   while ((v.portal.leaves() < portalTerminals || v.hepatic.leaves() < hepaticTerminals) && reach_mm > 5.0) {
@@ -132,6 +140,18 @@ LiverVessels growVessels(const Distance& liver_mm, const Point& low, const Point
       return v;
     }
   }
+}
+
+}  // namespace
+
+LiverVessels growVessels(const Distance& liver_mm, const Point& low, const Point& high, const Point& portalHilum,
+                         const Point& hepaticConfluence, std::uint64_t seed) {
+  // Where the main branches got into each other's way, or a trunk had to go, other main branches are tried.
+  for (int attempt = 0; attempt < 40; ++attempt) {
+    LiverVessels v = growOnce(liver_mm, low, high, portalHilum, hepaticConfluence, seed, attempt);
+    if (10 * v.portal.leaves() >= 8 * portalTerminals && 10 * v.hepatic.leaves() >= 8 * hepaticTerminals) return v;
+  }
+  throw BadArgument("phantom: no room for two vein trees in the liver of seed " + std::to_string(seed));
 }
 
 }  // namespace glisson::phantom

@@ -24,6 +24,7 @@ class VesselTree {
   VesselTree(const Point& root_lps_mm, double rootRadius_mm);
 
   const std::vector<Node>& nodes() const { return nodes_; }
+  double rootRadius_mm() const { return rootRadius_mm_; }
   int leaves() const { return nodes_.front().leaves; }
 
   /// Radius of the segment that ends in this node, mm.

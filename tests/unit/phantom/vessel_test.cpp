@@ -4,6 +4,7 @@
 
 #include "phantom/shape.h"
 #include "phantom/torso.h"
+#include "phantom/vessel_tree.h"
 #include "shared_patient.h"
 
 namespace glisson::phantom {
@@ -89,6 +90,17 @@ TEST_F(Vessels, AreBrighterThanTheLiverAroundThem) {
     if (b.radius_mm < 3.0) continue;
     const Eigen::Vector3d index = p.mri.grid.lpsToIndex(b.points_lps_mm[b.points_lps_mm.size() / 2]);
     EXPECT_GT(p.mri.at(index.array().round().cast<int>().matrix()), 1.3 * liver);
+  }
+}
+
+TEST(VesselGrowth, FindsRoomForBothTreesInEveryLiver) {
+  for (std::uint64_t seed = 100; seed < 112; ++seed) {
+    const Torso torso(seed);
+    const LiverVessels v = growVessels([&](const Point& p) { return torso.liver_mm(p); },
+                                       Point(-165, -115, torso.liverBottom_mm()), Point(120, 110, torso.liverTop_mm()),
+                                       torso.portalHilum_lps_mm(), torso.hepaticConfluence_lps_mm(), seed);
+    EXPECT_GE(v.portal.leaves(), 120) << seed;
+    EXPECT_GE(v.hepatic.leaves(), 96) << seed;
   }
 }
 
