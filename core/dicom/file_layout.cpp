@@ -172,6 +172,7 @@ class Walker {
     pixels.element = static_cast<std::uint16_t>(e.tag & 0xFFFFU);
     pixels.offset = e.value;
     pixels.encapsulated = e.length == undefinedLength;
+    pixels.words = !e.is("OB");
     if (!pixels.encapsulated) {
       pixels.length = e.length;
       if (e.value > end || e.length > end - e.value)

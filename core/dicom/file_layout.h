@@ -46,6 +46,8 @@ struct PixelElement {
   std::uint64_t offset = 0;        ///< of the value
   std::uint64_t length = 0;        ///< native only
   bool encapsulated = false;
+  bool words =
+      true;  ///< explicit VR OW, or implicit: 16-bit words, which a big-endian file turns round even for 8-bit pixels
   std::vector<Fragment> fragments;  ///< encapsulated only, without the offset table
 };
 

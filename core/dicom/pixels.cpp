@@ -178,9 +178,9 @@ void PixelReader::read(const Frame& frame, float* values) {
   if (!decoder_) {
     bytes_ = source_.bytes(pixels.offset + static_cast<std::uint64_t>(frame.number) * frameBytes, frameBytes);
     if (header_.layout.bigEndian) {
-      // 8-bit pixels in big-endian files are words of two pixels where the element is OW; both cases keep their order
-      // only for words, so that bytes stay as they are and larger numbers are turned round.
-      const auto width = static_cast<std::ptrdiff_t>(header_.bitsAllocated / 8);
+      const auto width = header_.bitsAllocated == 8 ? (pixels.words ? 2 : 1) : header_.bitsAllocated / 8;
+      if (frameBytes % static_cast<std::uint64_t>(width) != 0)
+        throw BadInput("has an odd number of 8-bit pixels in big-endian words, whose order is not defined");
       for (auto it = bytes_.begin(); it != bytes_.end(); it += width) std::reverse(it, it + width);
     }
   } else {

@@ -80,6 +80,33 @@ TEST(RealSeries, philipsEnhancedIsSplitIntoItsFourTimePoints) {
   }
 }
 
+TEST(RealSeries, aMaskOfTheSameSlicesMadeElsewhereLiesOnThem) {
+  GLISSON_NEEDS_DATA("dicom_seg_rtstruct");
+  const auto folder = test::sharedData() / "dicom_seg_rtstruct" / "dcmqi";
+  const ScanResult found = scan(folder / "ct-3slice");
+  ASSERT_EQ(found.series.size(), 1U);
+  const image::ScalarVolume ct = readSeries(found.series.front());
+  const image::Mask liver = image::readMask(folder / "liver_seg.nrrd");
+  ASSERT_EQ(liver.grid.voxelCount(), ct.grid.voxelCount());
+  double sum = 0.0;
+  double count = 0.0;
+  for (int k = 0; k < liver.grid.size.z(); ++k)
+    for (int j = 0; j < liver.grid.size.y(); ++j)
+      for (int i = 0; i < liver.grid.size.x(); ++i) {
+        if (liver.at(i, j, k) == 0) continue;
+        const Eigen::Vector3d index = ct.grid.lpsToIndex(liver.grid.indexToLps(Eigen::Vector3d(i, j, k)));
+        const Eigen::Vector3i there = index.array().round().cast<int>().matrix();
+        ASSERT_TRUE(ct.grid.contains(there));
+        ASSERT_LT((index - there.cast<double>()).norm(), 0.01);
+        sum += static_cast<double>(ct.at(there));
+        ++count;
+      }
+  // The same mask exists as a DICOM segmentation of the same slices: pydicom finds 107098 pixels whose CT values add up
+  // to 3997854 (whole numbers, so that the sum is exact).
+  EXPECT_EQ(count, 107098.0);
+  EXPECT_EQ(sum, 3997854.0);
+}
+
 struct Failing {
   const char* folder;
   const char* said;

@@ -1,3 +1,5 @@
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -144,6 +146,27 @@ TEST(Pixels, eightAndThirtyTwoBits) {
   const auto wide = readSeries(scan(d.write(folder / "wide")).series.at(0));
   EXPECT_EQ(wide.values[0], -2147483648.0F);
   EXPECT_EQ(wide.values[1], 70000.0F);
+}
+
+TEST(Pixels, bigEndianFilesHoldTheSameValues) {
+  const TemporaryFolder folder;
+  for (const unsigned bits : {8U, 16U})
+    for (const char* vr : {"OB", "OW"}) {
+      if (bits == 16 && vr[1] == 'B') continue;  // 16-bit pixels are words
+      DicomBytes d;
+      d.allocated = d.stored = bits;
+      d.highBit = bits - 1;
+      d.pixelVr = vr;
+      d.pixels.clear();
+      for (unsigned n = 0; n < 12; ++n) d.pixels += DicomBytes::little(n * 17 + 1, static_cast<int>(bits / 8));
+      d.write(folder / "little");
+      DcmFileFormat file;  // DCMTK turns the bytes round
+      ASSERT_TRUE(file.loadFile((folder / "little").c_str()).good());
+      ASSERT_TRUE(file.saveFile((folder / "big").c_str(), EXS_BigEndianExplicit).good());
+      const auto big = readSeries(scan(folder / "big").series.at(0));
+      EXPECT_EQ(big.values, readSeries(scan(folder / "little").series.at(0)).values) << bits << vr;
+      EXPECT_EQ(big.values[11], 188.0F);
+    }
 }
 
 TEST(Roles, geProductsAreKnownByTheirNumbers) {
