@@ -122,8 +122,11 @@ class Stage {
     at[vertical] = centre[vertical];
     at.x() = box.min().x() - 2.3 * off;
     letter(at, "R");
-    at.x() = box.max().x() + (floor ? 2.3 : 1.2) * off;
-    letter(at, "L");
+    at.x() = box.max().x() + 1.2 * off;
+    if (floor)
+      letter({box.max().x() + 2.4 * off, centre.y(), box.min().z()}, "L");
+    else
+      letter(at, "L");
     at.x() = centre.x();
     at[vertical] = vertical == 2 ? box.max().z() + 1.0 * off : box.min().y() - 1.0 * off;
     letter(at, vertical == 2 ? "S" : "A");
@@ -193,7 +196,8 @@ class Stage {
     const double margin = decorated ? 1.26 : 1.04;
     const double scale = margin * std::max(halfHeight, halfWidth * height_ / width_);
     const double distance = 4.0 * box.diagonal().norm();
-    const Eigen::Vector3d focus = centre - (decorated ? 0.03 * scale : 0.0) * up;
+    const double aside = decorated ? 0.09 * scale : 0.0;  // room for the legend on the left
+    const Eigen::Vector3d focus = centre - (decorated ? 0.03 * scale : 0.0) * up - aside * right;
     const Eigen::Vector3d eye = focus - distance * view_.fromEye;
     camera->ParallelProjectionOn();
     camera->SetFocalPoint(focus.data());

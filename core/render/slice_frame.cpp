@@ -107,7 +107,7 @@ void drawColourBar(RasterPainter& paint, const ColourBar& bar, double x, double 
   }
   if (bar.mark && *bar.mark > bar.low && *bar.mark < bar.high)
     paint.line({x - 0.3 * font_px, yOf(*bar.mark)}, {x + width + 0.3 * font_px, yOf(*bar.mark)},
-               {.colour = orange, .width = 3.0});
+               {.colour = bar.markColour, .width = 3.0});
   paint.text({x + 4.6 * font_px, y0 + 0.5 * height}, bar.title,
              {.size_px = font_px, .colour = light, .anchor = Anchor::Centre, .angle_deg = 90.0});
 }

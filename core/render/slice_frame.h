@@ -19,8 +19,9 @@ struct LegendItem {
 struct ColourBar {
   ColourMap map;
   double low = 0.0, high = 1.0;
-  std::string title;             ///< quantity and unit
+  std::string title{};           ///< quantity and unit
   std::optional<double> mark{};  ///< a value to mark by a line across the bar
+  Rgb markColour = colours::orange;
 };
 
 /// What surrounds the image of a slice: everything a reader needs to take measures from it.

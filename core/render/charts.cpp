@@ -1,0 +1,285 @@
+#include "render/charts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/error.h"
+#include "render/chart_frame.h"
+#include "render/colour_map.h"
+#include "render/font.h"
+#include "render/svg_painter.h"
+
+namespace glisson::render {
+namespace {
+
+using namespace colours;
+
+/// Told apart by colour-blind readers (Okabe and Ito), black first.
+constexpr std::array<Rgb, 7> seriesColours{
+    {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {120, 94, 10}, {30, 34, 40}}};
+constexpr Rgb barFill{86, 150, 205};
+
+std::vector<double> finite(const std::vector<double>& values) {
+  std::vector<double> kept;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(kept), [](double v) { return std::isfinite(v); });
+  return kept;
+}
+
+std::string withLeftOut(const std::string& caption, std::size_t leftOut) {
+  if (leftOut == 0) return caption;
+  return caption + (caption.empty() ? "" : " ") + std::to_string(leftOut) + " value(s) not finite, left out.";
+}
+
+void paintChart(Painter& paint, const Histogram& chart, const ChartSize& size) {
+  const std::vector<double> values = finite(chart.values);
+  const Bins bins = binned(values, chart.binWidth);
+  const double most = static_cast<double>(*std::max_element(bins.counts.begin(), bins.counts.end()));
+  double low = bins.start, high = bins.start + chart.binWidth * static_cast<double>(bins.counts.size());
+  for (const ReferenceLine& line : chart.lines) {
+    low = std::min(low, line.value);
+    high = std::max(high, line.value);
+  }
+  const ChartFrame frame =
+      beginChart(paint, size, chart.title, withLeftOut(chart.caption, chart.values.size() - values.size()), false);
+  Scale x(chart.x, low, high), y(chart.y, 0.0, 1.08 * most);
+  x.setPixels(frame.x0, frame.x1);
+  y.setPixels(frame.y1, frame.y0);
+  drawAxisY(paint, frame, y, chart.y.title);
+  for (std::size_t n = 0; n < bins.counts.size(); ++n) {
+    if (bins.counts[n] == 0) continue;
+    const double a = x(bins.start + chart.binWidth * static_cast<double>(n));
+    const double b = x(bins.start + chart.binWidth * static_cast<double>(n + 1));
+    const double top = y(static_cast<double>(bins.counts[n]));
+    paint.rectangle(a, top, b, frame.y1, barFill);
+    paint.frame(a, top, b, frame.y1, {.colour = paper, .width = frame.font / 10.0});
+  }
+  drawAxisX(paint, frame, x, chart.x.title, false);
+  drawVertical(paint, frame, x, chart.lines);
+  paint.text({frame.x1, frame.y0 - 0.5 * frame.font}, "n = " + std::to_string(values.size()),
+             {.size_px = frame.font, .colour = ink, .anchor = Anchor::Right});
+}
+
+void paintChart(Painter& paint, const BoxPlot& chart, const ChartSize& size) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  std::size_t leftOut = 0;
+  std::vector<std::vector<double>> groups;
+  for (const BoxPlot::Box& box : chart.boxes) {
+    groups.push_back(finite(box.values));
+    leftOut += box.values.size() - groups.back().size();
+    for (const double v : groups.back()) {
+      low = std::min(low, v);
+      high = std::max(high, v);
+    }
+  }
+  if (!(low <= high)) throw BadArgument("the box plot '" + chart.title + "' has no finite value");
+  for (const ReferenceLine& line : chart.lines) {
+    low = std::min(low, line.value);
+    high = std::max(high, line.value);
+  }
+  if (!chart.y.logarithmic && low > 0.0 && low < 0.4 * high) low = 0.0;
+  const ChartFrame frame = beginChart(paint, size, chart.title, withLeftOut(chart.caption, leftOut), false);
+  Scale y(chart.y, low, high);
+  y.setPixels(frame.y1, frame.y0);
+  drawAxisY(paint, frame, y, chart.y.title);
+  drawHorizontal(paint, frame, y, chart.lines);
+  const double f = frame.font, slot = (frame.x1 - frame.x0) / static_cast<double>(groups.size());
+  const double half = std::min(0.28 * slot, 4.5 * f);
+  const Stroke pen{.colour = ink, .width = f / 9.0};
+  for (std::size_t n = 0; n < groups.size(); ++n) {
+    const double x = frame.x0 + (static_cast<double>(n) + 0.5) * slot;
+    paint.text({x, frame.y1 + 1.5 * f}, chart.boxes[n].label, {.size_px = f, .colour = ink, .anchor = Anchor::Centre});
+    paint.text({x, frame.y1 + 2.8 * f}, "n = " + std::to_string(groups[n].size()),
+               {.size_px = 0.85 * f, .colour = {90, 96, 104}, .anchor = Anchor::Centre});
+    if (groups[n].empty()) continue;
+    const BoxNumbers box = boxNumbers(groups[n]);
+    paint.line({x, y(box.lowWhisker)}, {x, y(box.lowerQuartile)}, pen);
+    paint.line({x, y(box.upperQuartile)}, {x, y(box.highWhisker)}, pen);
+    for (const double v : {box.lowWhisker, box.highWhisker})
+      paint.line({x - 0.5 * half, y(v)}, {x + 0.5 * half, y(v)}, pen);
+    paint.rectangle(x - half, y(box.upperQuartile), x + half, y(box.lowerQuartile), barFill, 0.85);
+    paint.frame(x - half, y(box.upperQuartile), x + half, y(box.lowerQuartile), pen);
+    paint.line({x - half, y(box.median)}, {x + half, y(box.median)}, {.colour = ink, .width = f / 5.0});
+    for (const double v : box.outliers) paint.disc({x, y(v)}, f / 4.0, ink, 0.8);
+  }
+  paint.line({frame.x0, frame.y1}, {frame.x1, frame.y1}, {.colour = ink, .width = f / 12.0});
+}
+
+void paintChart(Painter& paint, const XyChart& chart, const ChartSize& size) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double lowX = infinity, highX = -infinity, lowY = infinity, highY = -infinity;
+  std::vector<double> allX, allY;
+  std::size_t leftOut = 0;
+  const auto usable = [&](double x, double y) {
+    return std::isfinite(x) && std::isfinite(y) && (!chart.x.logarithmic || x > 0.0) &&
+           (!chart.y.logarithmic || y > 0.0);
+  };
+  for (const XyChart::Series& s : chart.series) {
+    if (s.x.size() != s.y.size())
+      throw BadArgument("the series '" + s.name + "' has " + std::to_string(s.x.size()) + " x and " +
+                        std::to_string(s.y.size()) + " y values");
+    for (std::size_t n = 0; n < s.x.size(); ++n) {
+      if (!usable(s.x[n], s.y[n])) {
+        ++leftOut;
+        continue;
+      }
+      allX.push_back(s.x[n]);
+      allY.push_back(s.y[n]);
+      lowX = std::min(lowX, s.x[n]);
+      highX = std::max(highX, s.x[n]);
+      lowY = std::min(lowY, s.y[n]);
+      highY = std::max(highY, s.y[n]);
+    }
+  }
+  if (allX.empty()) throw BadArgument("the chart '" + chart.title + "' has no point that can be drawn on its axes");
+  for (const ReferenceLine& line : chart.lines) {
+    if (chart.y.logarithmic && !(line.value > 0.0)) continue;
+    lowY = std::min(lowY, line.value);
+    highY = std::max(highY, line.value);
+  }
+  std::string caption = chart.caption;
+  if (leftOut > 0)
+    caption += (caption.empty() ? "" : " ") + std::to_string(leftOut) + " point(s) cannot be shown on these axes.";
+  const ChartFrame frame = beginChart(paint, size, chart.title, caption, true);
+  const double f = frame.font;
+  Scale x(chart.x, lowX, highX), y(chart.y, lowY, highY);
+  x.setPixels(frame.x0, frame.x1);
+  y.setPixels(frame.y1, frame.y0);
+  drawAxisY(paint, frame, y, chart.y.title);
+  drawAxisX(paint, frame, x, chart.x.title, true);
+  drawHorizontal(paint, frame, y, chart.lines);
+
+  double legend = frame.x0;
+  const double legendY = frame.y0 - 0.8 * f;
+  if (chart.paretoFront) {
+    const std::vector<std::size_t> front = paretoFront(allX, allY);
+    std::vector<Point> steps;
+    for (const std::size_t n : front) {
+      if (!steps.empty()) steps.emplace_back(x(allX[n]), steps.back().y());
+      steps.emplace_back(x(allX[n]), y(allY[n]));
+    }
+    const Stroke stair{.colour = {120, 126, 134}, .width = f / 8.0, .dashed = true};
+    paint.polyline(steps, stair);
+    for (const std::size_t n : front) paint.disc({x(allX[n]), y(allY[n])}, 0.62 * f, {255, 205, 70});
+    paint.disc({legend + 0.6 * f, legendY - 0.35 * f}, 0.55 * f, {255, 205, 70});
+    paint.text({legend + 1.5 * f, legendY}, "Pareto front", {.size_px = f, .colour = ink});
+    legend += 3.0 * f + textWidth("Pareto front", f);
+  }
+  for (std::size_t s = 0; s < chart.series.size(); ++s) {
+    const XyChart::Series& series = chart.series[s];
+    const Rgb colour = seriesColours[s % seriesColours.size()];
+    const auto marker = [&](const Point& p) {  // shape beside colour
+      const double r = 0.38 * f;
+      if (s % 4 == 0)
+        paint.disc(p, r, colour);
+      else if (s % 4 == 1)
+        paint.rectangle(p.x() - 0.9 * r, p.y() - 0.9 * r, p.x() + 0.9 * r, p.y() + 0.9 * r, colour);
+      else if (s % 4 == 2)
+        paint.polygon(
+            {{p.x(), p.y() - 1.2 * r}, {p.x() + 1.1 * r, p.y() + 0.8 * r}, {p.x() - 1.1 * r, p.y() + 0.8 * r}}, colour);
+      else
+        paint.polygon(
+            {{p.x(), p.y() - 1.3 * r}, {p.x() + 1.3 * r, p.y()}, {p.x(), p.y() + 1.3 * r}, {p.x() - 1.3 * r, p.y()}},
+            colour);
+    };
+    const Stroke pen{.colour = colour, .width = f / 7.0, .dashed = series.dashed};
+    std::vector<Point> points;
+    for (std::size_t n = 0; n < series.x.size(); ++n)
+      if (usable(series.x[n], series.y[n])) points.emplace_back(x(series.x[n]), y(series.y[n]));
+    if (series.joined) paint.polyline(points, pen);
+    if (series.markers) std::for_each(points.begin(), points.end(), marker);
+    if (series.joined) paint.line({legend, legendY - 0.35 * f}, {legend + 1.6 * f, legendY - 0.35 * f}, pen);
+    if (series.markers) marker({legend + 0.8 * f, legendY - 0.35 * f});
+    paint.text({legend + 2.0 * f, legendY}, series.name, {.size_px = f, .colour = ink});
+    legend += 3.4 * f + textWidth(series.name, f);
+  }
+}
+
+template <typename Chart>
+Picture drawn(const Chart& chart, const ChartSize& size) {
+  Picture picture = blankPicture(std::max(1, size.width), std::max(1, size.height), paper);
+  RasterPainter paint(picture);
+  paintChart(paint, chart, size);
+  return picture;
+}
+
+template <typename Chart>
+std::string written(const Chart& chart, const ChartSize& size) {
+  SvgPainter paint(size.width, size.height);
+  paintChart(paint, chart, size);
+  return paint.document();
+}
+
+}  // namespace
+
+Picture draw(const Histogram& chart, const ChartSize& size) {
+  return drawn(chart, size);
+}
+Picture draw(const BoxPlot& chart, const ChartSize& size) {
+  return drawn(chart, size);
+}
+Picture draw(const XyChart& chart, const ChartSize& size) {
+  return drawn(chart, size);
+}
+std::string svg(const Histogram& chart, const ChartSize& size) {
+  return written(chart, size);
+}
+std::string svg(const BoxPlot& chart, const ChartSize& size) {
+  return written(chart, size);
+}
+std::string svg(const XyChart& chart, const ChartSize& size) {
+  return written(chart, size);
+}
+
+std::vector<std::size_t> paretoFront(const std::vector<double>& x, const std::vector<double>& y) {
+  std::vector<std::size_t> order(x.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return x[a] != x[b] ? x[a] < x[b] : y[a] != y[b] ? y[a] < y[b] : a < b;
+  });
+  std::vector<std::size_t> front;
+  for (const std::size_t n : order) {
+    const bool equal = !front.empty() && x[n] == x[front.back()] && y[n] == y[front.back()];
+    if (front.empty() || equal || y[n] < y[front.back()]) front.push_back(n);
+  }
+  return front;
+}
+
+BoxNumbers boxNumbers(std::vector<double> values) {
+  if (values.empty()) throw BadArgument("a box needs at least one value");
+  std::sort(values.begin(), values.end());
+  const auto quantile = [&](double p) {
+    const double at = p * static_cast<double>(values.size() - 1);
+    const auto n = std::min(static_cast<std::size_t>(at), values.size() - 1);
+    const auto next = std::min(n + 1, values.size() - 1);
+    return values[n] + (at - static_cast<double>(n)) * (values[next] - values[n]);
+  };
+  BoxNumbers box{0.0, quantile(0.25), quantile(0.5), quantile(0.75), 0.0, {}};
+  const double reach = 1.5 * (box.upperQuartile - box.lowerQuartile);
+  box.lowWhisker = box.lowerQuartile;
+  box.highWhisker = box.upperQuartile;
+  for (const double v : values) {
+    if (v < box.lowerQuartile - reach || v > box.upperQuartile + reach) {
+      box.outliers.push_back(v);
+    } else {
+      box.lowWhisker = std::min(box.lowWhisker, v);
+      box.highWhisker = std::max(box.highWhisker, v);
+    }
+  }
+  return box;
+}
+
+Bins binned(const std::vector<double>& values, double binWidth) {
+  if (values.empty()) throw BadArgument("a histogram needs at least one finite value");
+  if (!(binWidth > 0.0)) throw BadArgument("the bin width must be above zero");
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double first = std::floor(*low / binWidth), last = std::floor(*high / binWidth);
+  if (last - first > 1e5) throw BadArgument("the bin width is too small for the range of the values");
+  Bins bins{first * binWidth, std::vector<std::size_t>(static_cast<std::size_t>(last - first) + 1, 0)};
+  for (const double v : values) ++bins.counts[static_cast<std::size_t>(std::floor(v / binWidth) - first)];
+  return bins;
+}
+
+}  // namespace glisson::render

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/painter.h"
+
+namespace glisson::render {
+
+/// Charts for reports, studies and the workstation: one description, drawn to pixels or SVG, without OpenGL. Values
+/// that are not finite are left out and counted in a note. All throw BadArgument where nothing can be drawn (no finite
+/// value, a logarithmic axis without positive values, series of unequal lengths).
+
+/// A constant drawn across a chart, with its label: the 1.64 mm voxel (magenta), the significant 5 mm (orange), the
+/// atlas.
+struct ReferenceLine {
+  double value = 0.0;
+  std::string label{};
+  Rgb colour{230, 126, 0};
+};
+
+struct Axis {
+  std::string title{};  ///< with its unit, e.g. "Run time (ms)"
+  bool logarithmic = false;
+  std::optional<double> low{};  ///< from the data where unset
+  std::optional<double> high{};
+};
+
+struct Histogram {
+  std::string title{};
+  Axis x{}, y{.title = "Number of cases"};
+  std::vector<double> values{};
+  double binWidth = 0.5;               ///< in the unit of x; bins begin at multiples of it
+  std::vector<ReferenceLine> lines{};  ///< vertical
+  std::string caption{};
+};
+
+struct BoxPlot {
+  struct Box {
+    std::string label{};
+    std::vector<double> values{};
+  };
+  std::string title{};
+  Axis y{};
+  std::vector<Box> boxes{};  ///< quartiles (linear between order statistics), whiskers to 1.5 IQR, outliers as dots
+  std::vector<ReferenceLine> lines{};  ///< horizontal
+  std::string caption{};
+};
+
+/// Lines through points, points alone, or both.
+struct XyChart {
+  struct Series {
+    std::string name{};
+    std::vector<double> x{}, y{};
+    bool joined = true;
+    bool markers = true;
+    bool dashed = false;
+  };
+  std::string title{};
+  Axis x{}, y{};
+  std::vector<Series> series{};
+  std::vector<ReferenceLine> lines{};  ///< horizontal
+  bool paretoFront = false;  ///< marks the points that no other point beats in both x and y (smaller is better)
+  std::string caption{};
+};
+
+struct ChartSize {
+  int width = 1600;
+  int height = 1100;
+};
+
+Picture draw(const Histogram& chart, const ChartSize& size = {});
+Picture draw(const BoxPlot& chart, const ChartSize& size = {});
+Picture draw(const XyChart& chart, const ChartSize& size = {});
+std::string svg(const Histogram& chart, const ChartSize& size = {});
+std::string svg(const BoxPlot& chart, const ChartSize& size = {});
+std::string svg(const XyChart& chart, const ChartSize& size = {});
+
+/// Indices of the points that no other beats in both x and y, by growing x; equal points are all kept.
+std::vector<std::size_t> paretoFront(const std::vector<double>& x, const std::vector<double>& y);
+
+/// Quartiles and whiskers of a box; values need not be sorted.
+struct BoxNumbers {
+  double lowWhisker = 0.0, lowerQuartile = 0.0, median = 0.0, upperQuartile = 0.0, highWhisker = 0.0;
+  std::vector<double> outliers{};
+};
+BoxNumbers boxNumbers(std::vector<double> values);
+
+/// Number of values in each bin [n binWidth, (n + 1) binWidth), from the bin of the smallest to that of the largest.
+struct Bins {
+  double start = 0.0;
+  std::vector<std::size_t> counts{};
+};
+Bins binned(const std::vector<double>& values, double binWidth);
+
+}  // namespace glisson::render
