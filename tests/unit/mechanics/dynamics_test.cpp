@@ -23,7 +23,9 @@ MatrixSystem oneMass(double m, double k) {
   return MatrixSystem(MatrixXd::Constant(1, 1, k).sparseView(0.0, 0.0), MatrixXd::Constant(1, 1, m).sparseView());
 }
 
-VectorXd one(double x) { return VectorXd::Constant(1, x); }
+VectorXd one(double x) {
+  return VectorXd::Constant(1, x);
+}
 
 Problem cube(int n, double poisson = 0.45, bool held = false) {
   Problem p;
@@ -47,8 +49,7 @@ TEST(Dynamics, FreeFallOfVoxelsGainsExactlyGHPerStep) {
   options.end_s = 20e-3;
   options.keepEvery = 1;
   const VectorXd zero = VectorXd::Zero(system.size());
-  const Trajectory t =
-      integrate(system, Eigen::Map<const VectorXd>(f.data(), f.size()), zero, zero, options);
+  const Trajectory t = integrate(system, Eigen::Map<const VectorXd>(f.data(), f.size()), zero, zero, options);
   ASSERT_EQ(t.steps, 20);
   for (const DynamicState& s : t.kept) {
     // Backward Euler falls n (n + 1) / 2 times g h², not n² / 2.

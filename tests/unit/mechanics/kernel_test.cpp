@@ -22,9 +22,8 @@ Sites sitesOf(const VoxelMesh& mesh, int count) {
 /// A box with a slot that nearly cuts it in two: two lobes joined at one end.
 VoxelBody folded() {
   VoxelBody body = test::box({30, 11, 10}, {0.09, 0.033, 0.03}, 5e3, 0.4);
-  test::paint(body, [](const Vector3d& x, double E) {
-    return x.x() > 0.015 && x.y() > 0.015 && x.y() < 0.018 ? 0.0 : E;
-  });
+  test::paint(body,
+              [](const Vector3d& x, double E) { return x.x() > 0.015 && x.y() > 0.015 && x.y() < 0.018 ? 0.0 : E; });
   return body;
 }
 
@@ -98,7 +97,8 @@ TEST_P(EveryKernel, SameBitsWithAnyThreads) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, EveryKernel,
-                         testing::Values(KernelOptions{Kernel::Wendland, 1, 0.0}, KernelOptions{Kernel::Wendland, 2, 0.0},
+                         testing::Values(KernelOptions{Kernel::Wendland, 1, 0.0},
+                                         KernelOptions{Kernel::Wendland, 2, 0.0},
                                          KernelOptions{Kernel::Voronoi, 1, 0.0},
                                          KernelOptions{Kernel::Voronoi, 2, 0.0}));
 
@@ -124,7 +124,8 @@ TEST(NodeGraph, PathsGoRoundTheGap) {
   const VoxelMesh mesh(folded());
   const NodeGraph graph(mesh);
   std::vector<double> d(static_cast<std::size_t>(mesh.nodeCount()), std::numeric_limits<double>::infinity());
-  graph.shortest({{mesh.nodeAt(30, 5, 0), 0.0}}, [](int) { return true; }, d);
+  graph.shortest(
+      {{mesh.nodeAt(30, 5, 0), 0.0}}, [](int) { return true; }, d);
   // Along one lip of the slot to its end at x = 15 mm and back along the other: 2 × 75 mm and the 3 mm between them.
   EXPECT_NEAR(d[static_cast<std::size_t>(mesh.nodeAt(30, 6, 0))], 0.153, 1e-12);
 }
