@@ -10,4 +10,13 @@ struct TriangleMesh {
   Eigen::Matrix3Xi triangles;        ///< 3 × nTriangles, vertex indices
 };
 
+/// Sum of the triangle areas, mm².
+double area_mm2(const TriangleMesh& mesh);
+
+/// Enclosed volume of a closed surface, mm³ (divergence theorem); negative where it is oriented inwards.
+double volume_mm3(const TriangleMesh& mesh);
+
+/// Whether every edge belongs to exactly two triangles that run along it in opposite directions.
+bool isClosed(const TriangleMesh& mesh);
+
 }  // namespace glisson::anatomy

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "image/volume.h"
+
+namespace glisson::anatomy {
+
+/// Curve skeleton of a mask: border voxels are taken away from the six sides in turn as long as they are simple (taking
+/// them away changes neither the parts (26-connected), nor the cavities and tunnels of the background (6-connected)
+/// [malandain1994]) and no end of a curve (one neighbour). One voxel thick, centred to about a voxel, the same every
+/// time.
+image::Mask skeleton(const image::Mask& mask);
+
+}  // namespace glisson::anatomy
