@@ -5,6 +5,9 @@
 
 #include "render/overlay.h"
 
+class QLabel;
+class QStackedLayout;
+
 namespace glisson::views {
 
 class VtkWidget;
@@ -32,8 +35,8 @@ class SceneView : public QWidget {
   std::shared_ptr<const render::RetractionScene> scene_;
   render::SceneOptions3D options_;
   VtkWidget* widget_;
-  class QLabel* hint_;
-  class QStackedLayout* layout_;
+  QLabel* hint_;
+  QStackedLayout* layout_;
 };
 
 }  // namespace glisson::views

@@ -1,0 +1,80 @@
+#include <QApplication>
+#include <QCommandLineParser>
+#include <QLocale>
+#include <QTimer>
+#include <array>
+#include <iostream>
+
+#include "base/version.h"
+#include "panels/main_window.h"
+#include "panels/theme.h"
+#include "screenshot.h"
+
+namespace {
+
+using glisson::session::Step;
+
+std::optional<Step> stepNamed(const QString& name) {
+  constexpr std::array names = {"load", "segment", "model", "retract", "compare"};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (name == QLatin1String(names[i])) return glisson::session::steps[i];
+  return std::nullopt;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  QApplication app(argc, argv);
+  QApplication::setApplicationName(QStringLiteral("glisson"));
+  QApplication::setApplicationDisplayName(QStringLiteral("Glisson"));
+  QApplication::setApplicationVersion(QString::fromStdString(glisson::version()));
+  QApplication::setDesktopFileName(QStringLiteral("glisson"));
+  // Numbers are shown and typed with a point everywhere, as in the scene files.
+  QLocale::setDefault(QLocale::c());
+
+  QCommandLineParser parser;
+  parser.setApplicationDescription(QStringLiteral("Patient-specific biomechanics of the liver.\n") +
+                                   QLatin1String(glisson::researchUseOnly) + QLatin1Char('.'));
+  parser.addHelpOption();
+  parser.addVersionOption();
+  parser.addPositionalArgument(QStringLiteral("folder"), QStringLiteral("DICOM folder to open."),
+                               QStringLiteral("[folder]"));
+  const QCommandLineOption synthetic(QStringLiteral("synthetic"), QStringLiteral("Open the synthetic patient."));
+  const QCommandLineOption theme(QStringLiteral("theme"), QStringLiteral("dark (default) or light."),
+                                 QStringLiteral("name"), QStringLiteral("dark"));
+  const QCommandLineOption outlines(QStringLiteral("outlines"),
+                                    QStringLiteral("With --screenshot: outlines to import."), QStringLiteral("file"));
+  const QCommandLineOption run(QStringLiteral("run"), QStringLiteral("With --screenshot: run before the picture."));
+  const QCommandLineOption step(QStringLiteral("step"),
+                                QStringLiteral("With --screenshot: load, segment, model, retract or compare."),
+                                QStringLiteral("name"), QStringLiteral("segment"));
+  const QCommandLineOption slice(QStringLiteral("slice"), QStringLiteral("With --screenshot: MRI slice, from 1."),
+                                 QStringLiteral("n"), QStringLiteral("0"));
+  const QCommandLineOption screenshot(QStringLiteral("screenshot"),
+                                      QStringLiteral("Save a picture of the window as PNG and quit."),
+                                      QStringLiteral("file"));
+  parser.addOptions({synthetic, theme, screenshot, step, slice, outlines, run});
+  parser.process(app);
+  const std::optional<Step> wantedStep = stepNamed(parser.value(step));
+  const bool light = parser.value(theme) == QLatin1String("light");
+  if (!wantedStep || (!light && parser.value(theme) != QLatin1String("dark")) ||
+      parser.positionalArguments().size() > 1) {
+    std::cerr << "glisson: unknown step or theme, or more than one folder; see glisson --help\n";
+    return 2;
+  }
+
+  glisson::panels::applyTheme(light ? glisson::panels::Theme::Light : glisson::panels::Theme::Dark);
+  glisson::panels::MainWindow window;
+  window.show();
+  const bool opening = parser.isSet(synthetic) || !parser.positionalArguments().isEmpty();
+  if (parser.isSet(screenshot)) {
+    auto* picture = new glisson::Screenshot(window, {parser.value(screenshot), *wantedStep, parser.value(outlines),
+                                                     parser.isSet(run), parser.value(slice).toInt() - 1});
+    picture->start(opening);
+  }
+  if (parser.isSet(synthetic))
+    window.session().openSynthetic();
+  else if (opening)
+    window.session().openPath(parser.positionalArguments().front());
+  return QApplication::exec();
+}

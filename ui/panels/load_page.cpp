@@ -1,0 +1,159 @@
+#include "panels/load_page.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QStackedWidget>
+#include <QTableWidget>
+#include <QTreeWidget>
+#include <array>
+
+#include "panels/form.h"
+#include "session/session.h"
+
+namespace glisson::panels {
+
+namespace {
+
+using dicom::SeriesRole;
+constexpr std::array roles = {SeriesRole::Anatomical, SeriesRole::Magnitude,  SeriesRole::Wave, SeriesRole::Stiffness,
+                              SeriesRole::Confidence, SeriesRole::ColourCopy, SeriesRole::Other};
+
+QTableWidgetItem* cell(const QString& text, const QString& tip = {}) {
+  auto* item = new QTableWidgetItem(text);
+  item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
+  item->setToolTip(tip.isEmpty() ? text : tip);
+  return item;
+}
+
+QString sizeText(const dicom::Series& series) {
+  return QStringLiteral("%1 × %2 × %3").arg(series.grid.size.x()).arg(series.grid.size.y()).arg(series.grid.size.z());
+}
+
+QString spacingText(const dicom::Series& series) {
+  const Eigen::Vector3d& s = series.grid.spacing_mm;
+  return QStringLiteral("%1 × %2 × %3 mm").arg(s.x(), 0, 'g', 3).arg(s.y(), 0, 'g', 3).arg(s.z(), 0, 'g', 3);
+}
+
+}  // namespace
+
+LoadPage::LoadPage(session::Session& session, QWidget* parent)
+    : QWidget(parent),
+      session_(session),
+      stack_(new QStackedWidget),
+      table_(new QTableWidget),
+      skipped_(new QTreeWidget),
+      summary_(labelled({}, "faint")) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(stack_);
+  stack_->addWidget(makeWelcome());
+  stack_->addWidget(makeTable());
+  connect(&session_, &session::Session::loaded, this, &LoadPage::fill);
+}
+
+QWidget* LoadPage::makeWelcome() {
+  auto* page = new QWidget;
+  auto* outer = new QVBoxLayout(page);
+  auto* card = new QFrame;
+  card->setProperty("role", "card");
+  card->setFixedWidth(560);
+  auto* layout = new QVBoxLayout(card);
+  layout->setContentsMargins(40, 36, 40, 36);
+  layout->setSpacing(14);
+  auto* logo = new QLabel;
+  logo->setPixmap(icon(QStringLiteral("glisson")).pixmap(72, 72));
+  layout->addWidget(logo, 0, Qt::AlignHCenter);
+  auto* title = labelled(tr("Open a patient"), "heading");
+  title->setAlignment(Qt::AlignHCenter);
+  layout->addWidget(title);
+  auto* text = labelled(tr("A DICOM folder with an abdominal MRI and an MR elastogram. Drop it here, or start with a "
+                           "synthetic patient to look around."),
+                        "faint");
+  text->setAlignment(Qt::AlignHCenter);
+  layout->addWidget(text);
+  auto* row = new QHBoxLayout;
+  auto* open =
+      button("openFolderButton", tr("Open DICOM folder…"), QStringLiteral("load"), tr("Open a folder (Ctrl+O)"));
+  open->setProperty("primary", true);
+  auto* synthetic = button("syntheticButton", tr("Synthetic patient"), QStringLiteral("patient"),
+                           tr("Makes a synthetic patient as DICOM and opens it (Ctrl+Shift+N)"));
+  row->addWidget(open);
+  row->addWidget(synthetic);
+  layout->addLayout(row);
+  outer->addWidget(card, 0, Qt::AlignCenter);
+  connect(open, &QPushButton::clicked, this, &LoadPage::openWanted);
+  connect(synthetic, &QPushButton::clicked, this, &LoadPage::syntheticWanted);
+  return page;
+}
+
+QWidget* LoadPage::makeTable() {
+  auto* page = new QWidget;
+  auto* layout = new QVBoxLayout(page);
+  layout->setContentsMargins(24, 20, 24, 20);
+  layout->setSpacing(10);
+  auto* head = new QHBoxLayout;
+  auto* titles = new QVBoxLayout;
+  titles->addWidget(labelled(tr("Series"), "heading"));
+  titles->addWidget(summary_);
+  head->addLayout(titles, 1);
+  auto* another =
+      button("openAnotherButton", tr("Open another…"), QStringLiteral("load"), tr("Open another folder (Ctrl+O)"));
+  head->addWidget(another, 0, Qt::AlignTop);
+  connect(another, &QPushButton::clicked, this, &LoadPage::openWanted);
+  layout->addLayout(head);
+  table_->setObjectName(QStringLiteral("seriesTable"));
+  table_->setColumnCount(7);
+  table_->setHorizontalHeaderLabels(
+      {tr("No."), tr("Description"), tr("Role"), tr("Why"), tr("Voxels"), tr("Spacing"), tr("Warnings")});
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(34);
+  table_->setShowGrid(false);
+  table_->setAlternatingRowColors(true);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table_->horizontalHeader()->setSectionResizeMode(3, QHeaderView::Stretch);
+  table_->horizontalHeader()->setSectionResizeMode(6, QHeaderView::Interactive);
+  table_->setColumnWidth(6, 220);
+  layout->addWidget(table_, 3);
+  layout->addWidget(section(tr("Files left out")));
+  skipped_->setObjectName(QStringLiteral("skippedFiles"));
+  skipped_->setHeaderLabels({tr("File"), tr("Reason")});
+  skipped_->setRootIsDecorated(false);
+  skipped_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  layout->addWidget(skipped_, 1);
+  return page;
+}
+
+void LoadPage::fill() {
+  const dicom::ScanResult& scan = session_.scan();
+  stack_->setCurrentIndex(1);
+  summary_->setText(tr("%1 series, %2 files left out. Correct a role where the guess is wrong.")
+                        .arg(static_cast<qulonglong>(scan.series.size()))
+                        .arg(static_cast<qulonglong>(scan.skipped.size())));
+  table_->setRowCount(static_cast<int>(scan.series.size()));
+  for (int row = 0; row < table_->rowCount(); ++row) {
+    const dicom::Series& s = scan.series[static_cast<std::size_t>(row)];
+    table_->setItem(row, 0, cell(QString::number(s.number)));
+    table_->setItem(row, 1, cell(QString::fromStdString(s.description)));
+    auto* role = new QComboBox;
+    for (const SeriesRole r : roles) role->addItem(QString::fromStdString(dicom::name(r)), static_cast<int>(r));
+    role->setCurrentIndex(role->findData(static_cast<int>(s.role)));
+    role->setEnabled(!s.error);
+    connect(role, &QComboBox::activated, this,
+            [this, role, row] { session_.setRole(row, static_cast<SeriesRole>(role->currentData().toInt())); });
+    table_->setCellWidget(row, 2, role);
+    table_->setItem(row, 3, cell(QString::fromStdString(s.error ? *s.error : s.roleReason)));
+    table_->setItem(row, 4, cell(sizeText(s)));
+    table_->setItem(row, 5, cell(spacingText(s)));
+    QStringList warnings;
+    for (const std::string& w : s.warnings) warnings << QString::fromStdString(w);
+    table_->setItem(row, 6, cell(warnings.join(QStringLiteral("; ")), warnings.join(QLatin1Char('\n'))));
+  }
+  skipped_->clear();
+  for (const dicom::SkippedFile& f : scan.skipped)
+    new QTreeWidgetItem(skipped_,
+                        {QString::fromStdString(f.file.filename().string()), QString::fromStdString(f.reason)});
+}
+
+}  // namespace glisson::panels

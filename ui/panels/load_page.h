@@ -1,0 +1,38 @@
+#pragma once
+
+#include <QWidget>
+
+class QLabel;
+class QPushButton;
+class QStackedWidget;
+class QTableWidget;
+class QTreeWidget;
+
+namespace glisson::session {
+class Session;
+}
+
+namespace glisson::panels {
+
+/// Load: what was found in the folder, what each series is for and why; the role can be corrected.
+class LoadPage : public QWidget {
+  Q_OBJECT
+ public:
+  explicit LoadPage(session::Session& session, QWidget* parent = nullptr);
+
+ signals:
+  void openWanted();
+  void syntheticWanted();
+
+ private:
+  QWidget* makeWelcome();
+  QWidget* makeTable();
+  void fill();
+  session::Session& session_;
+  QStackedWidget* stack_;
+  QTableWidget* table_;
+  QTreeWidget* skipped_;
+  QLabel* summary_;
+};
+
+}  // namespace glisson::panels

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <QWidget>
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QSpinBox;
+class QTreeWidget;
+
+namespace glisson::session {
+class Session;
+}
+
+namespace glisson::panels {
+
+/// Model: what the liver is made of and how it is computed, and the plan that follows: each step, needed or left out,
+/// and why.
+class ModelPage : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ModelPage(session::Session& session, QWidget* parent = nullptr);
+
+ signals:
+  void runWanted();
+
+ protected:
+  void showEvent(QShowEvent* event) override;
+
+ private:
+  QWidget* makeSide();
+  void take();   ///< form to session
+  void show_();  ///< session to form
+  void showPlan();
+  void showNumbers();
+  session::Session& session_;
+  QTreeWidget* plan_;
+  QLabel* numbers_;
+  QComboBox *kind_, *stiffness_;
+  QDoubleSpinBox *poisson_, *density_, *cell_, *atlas_;
+  QSpinBox* frames_;
+  bool filling_ = false;
+};
+
+}  // namespace glisson::panels

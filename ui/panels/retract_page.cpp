@@ -1,0 +1,163 @@
+#include "panels/retract_page.h"
+
+#include <QComboBox>
+#include <QSlider>
+
+#include "panels/form.h"
+#include "session/session.h"
+#include "views/scene_view.h"
+
+namespace glisson::panels {
+
+RetractPage::RetractPage(session::Session& session, QWidget* parent)
+    : QWidget(parent), session_(session), scene_(new views::SceneView) {
+  scene_->setObjectName(QStringLiteral("retractView"));
+  scene_->setHint(tr("Run the retraction to see the liver move."));
+  auto* centre = new QWidget;
+  auto* column = new QVBoxLayout(centre);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  column->addWidget(scene_, 1);
+  column->addWidget(makePlayBar());
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(0);
+  row->addWidget(centre, 1);
+  row->addWidget(makeSide());
+  connect(&session_, &session::Session::parametersChanged, this, &RetractPage::showParameters);
+  connect(&session_, &session::Session::runFinished, this, &RetractPage::showResult);
+  connect(&session_, &session::Session::loaded, this, &RetractPage::showResult);
+  connect(&session_, &session::Session::statusChanged, this, [this] { run_->setEnabled(!session_.busy()); });
+  clock_.setInterval(40);
+  connect(&clock_, &QTimer::timeout, this, [this] { time_->setValue(time_->value() >= 100 ? 0 : time_->value() + 2); });
+  showParameters();
+}
+
+QWidget* RetractPage::makePlayBar() {
+  auto* bar = new QWidget;
+  auto* row = new QHBoxLayout(bar);
+  row->setContentsMargins(14, 8, 14, 8);
+  play_ = button("playButton", {}, QStringLiteral("play"), tr("Play the retraction (Space)"));
+  play_->setEnabled(false);
+  row->addWidget(play_);
+  time_ = new QSlider(Qt::Horizontal);
+  time_->setObjectName(QStringLiteral("timeSlider"));
+  time_->setRange(0, 100);
+  time_->setValue(100);
+  time_->setEnabled(false);
+  row->addWidget(time_, 1);
+  fraction_ = new QLabel(QStringLiteral("100 %"));
+  fraction_->setMinimumWidth(52);
+  fraction_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  row->addWidget(fraction_);
+  connect(play_, &QPushButton::clicked, this, [this] { setPlaying(!clock_.isActive()); });
+  connect(time_, &QSlider::valueChanged, this, [this](int value) {
+    fraction_->setText(tr("%1 %").arg(value));
+    scene_->setFraction(value / 100.0);
+  });
+  return bar;
+}
+
+QWidget* RetractPage::makeSide() {
+  QVBoxLayout* side = nullptr;
+  QFrame* frame = sidePanel(side);
+  side->addWidget(labelled(tr("Retraction"), "heading"));
+  side->addWidget(section(tr("Nathanson retractor")));
+  auto* retractor = new QFormLayout;
+  diameter_ = quantity("retractorDiameter", 1, 60, 1, 1, QStringLiteral("mm"), tr("Diameter of the bar"));
+  retractor->addRow(tr("Diameter"), diameter_);
+  length_ = quantity("retractorLength", 5, 300, 5, 0, QStringLiteral("mm"), tr("Length of the bar that bears"));
+  retractor->addRow(tr("Length"), length_);
+  forceKind_ = new QComboBox;
+  forceKind_->setObjectName(QStringLiteral("forceKind"));
+  forceKind_->addItems({tr("The liver's weight"), tr("Given force")});
+  retractor->addRow(tr("Hoist"), forceKind_);
+  force_ = quantity("retractorForce", 0.01, 500, 1, 2, QStringLiteral("N"),
+                    tr("Hoisting force, towards anterior in the transverse plane"));
+  retractor->addRow(tr("Force"), force_);
+  side->addLayout(retractor);
+  side->addWidget(labelled(
+      tr("Under the inferior right lobe, hoisted towards anterior. The same load for MRE and atlas."), "faint"));
+  side->addSpacing(8);
+  side->addWidget(section(tr("Abdomen")));
+  auto* abdomen = new QFormLayout;
+  abdomen_ = quantity("abdomenStiffness", 0.001, 100, 0.05, 3, QStringLiteral("kPa/mm"),
+                      tr("Elastic resistance per area of the posterior and superior surface (Winkler foundation)"));
+  abdomen->addRow(tr("Resistance"), abdomen_);
+  side->addLayout(abdomen);
+  side->addSpacing(8);
+  side->addWidget(section(tr("Solution")));
+  numbers_ = labelled({}, "faint");
+  numbers_->setObjectName(QStringLiteral("solutionNumbers"));
+  side->addWidget(numbers_);
+  validity_ = labelled({}, "faint");
+  validity_->setObjectName(QStringLiteral("retractValidity"));
+  side->addWidget(validity_);
+  side->addStretch();
+  run_ = button("runButton", tr("Run"), QStringLiteral("run"), tr("Build, retract and compare (Ctrl+R)"));
+  run_->setProperty("primary", true);
+  side->addWidget(run_);
+  connect(run_, &QPushButton::clicked, this, &RetractPage::runWanted);
+  for (QDoubleSpinBox* box : {diameter_, length_, force_, abdomen_})
+    connect(box, &QDoubleSpinBox::valueChanged, this, &RetractPage::take);
+  connect(forceKind_, &QComboBox::currentIndexChanged, this, &RetractPage::take);
+  return frame;
+}
+
+void RetractPage::take() {
+  if (filling_) return;
+  session::Parameters p = session_.parameters();
+  p.retractorDiameter_mm = diameter_->value();
+  p.retractorLength_mm = length_->value();
+  p.forceIsWeight = forceKind_->currentIndex() == 0;
+  p.force_N = force_->value();
+  p.abdomen_kPa_per_mm = abdomen_->value();
+  session_.setParameters(p);
+}
+
+void RetractPage::showParameters() {
+  filling_ = true;
+  const session::Parameters& p = session_.parameters();
+  diameter_->setValue(p.retractorDiameter_mm);
+  length_->setValue(p.retractorLength_mm);
+  forceKind_->setCurrentIndex(p.forceIsWeight ? 0 : 1);
+  force_->setValue(p.force_N);
+  force_->setEnabled(!p.forceIsWeight);
+  abdomen_->setValue(p.abdomen_kPa_per_mm);
+  filling_ = false;
+}
+
+void RetractPage::setPlaying(bool playing) {
+  playing ? clock_.start() : clock_.stop();
+  play_->setIcon(icon(playing ? QStringLiteral("pause") : QStringLiteral("play")));
+}
+
+void RetractPage::showResult() {
+  setPlaying(false);
+  const auto result = session_.result();
+  scene_->setScene(session_.picture());
+  play_->setEnabled(scene_->hasScene());
+  time_->setEnabled(scene_->hasScene());
+  time_->setValue(100);
+  if (!result) {
+    numbers_->setText(tr("Not run yet."));
+    validity_->clear();
+    return;
+  }
+  const retraction::Result& r = result->primary;
+  numbers_->setText(tr("%1: %2 iterations, residual %3\n%4 degrees of freedom\nLoad %5 N, reaction %6 N\n"
+                       "Largest strain %7 %, rotation %8°")
+                        .arg(QString::fromStdString(r.solver.kind))
+                        .arg(r.solver.iterations)
+                        .arg(r.solver.residual, 0, 'e', 1)
+                        .arg(r.dofs)
+                        .arg(r.load_N.norm(), 0, 'f', 2)
+                        .arg(r.reaction_N.norm(), 0, 'f', 2)
+                        .arg(100.0 * r.max_strain, 0, 'f', 1)
+                        .arg(r.max_rotation_deg, 0, 'f', 1));
+  QStringList words;
+  for (const std::string& w : r.validity) words << QString::fromStdString(w);
+  validity_->setText(words.isEmpty() ? tr("Linear theory can be trusted here.") : words.join(QLatin1Char('\n')));
+}
+
+}  // namespace glisson::panels
