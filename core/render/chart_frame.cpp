@@ -121,7 +121,8 @@ void drawAxisX(Painter& paint, const ChartFrame& frame, const Scale& scale, cons
   const double f = frame.font;
   for (const Scale::Tick& tick : scale.ticks()) {
     const double x = scale(tick.value);
-    if (grid && !tick.text.empty()) paint.line({x, frame.y0}, {x, frame.y1}, {.colour = rule, .width = f / 18.0});
+    if (grid && !tick.text.empty() && x > frame.x0 + 1.0)
+      paint.line({x, frame.y0}, {x, frame.y1}, {.colour = rule, .width = f / 18.0});
     paint.line({x, frame.y1}, {x, frame.y1 + (tick.text.empty() ? 0.2 : 0.4) * f}, {.colour = ink, .width = f / 14.0});
     paint.text({x, frame.y1 + 1.5 * f}, tick.text, {.size_px = f, .colour = ink, .anchor = Anchor::Centre});
   }
@@ -134,7 +135,8 @@ void drawAxisY(Painter& paint, const ChartFrame& frame, const Scale& scale, cons
   const double f = frame.font;
   for (const Scale::Tick& tick : scale.ticks()) {
     const double y = scale(tick.value);
-    if (!tick.text.empty()) paint.line({frame.x0, y}, {frame.x1, y}, {.colour = rule, .width = f / 18.0});
+    if (!tick.text.empty() && y < frame.y1 - 1.0)
+      paint.line({frame.x0, y}, {frame.x1, y}, {.colour = rule, .width = f / 18.0});
     paint.line({frame.x0 - (tick.text.empty() ? 0.2 : 0.4) * f, y}, {frame.x0, y}, {.colour = ink, .width = f / 14.0});
     paint.text({frame.x0 - 0.6 * f, y + 0.36 * f}, tick.text, {.size_px = f, .colour = ink, .anchor = Anchor::Right});
   }

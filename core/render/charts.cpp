@@ -84,8 +84,11 @@ void paintChart(Painter& paint, const BoxPlot& chart, const ChartSize& size) {
   Scale y(chart.y, low, high);
   y.setPixels(frame.y1, frame.y0);
   drawAxisY(paint, frame, y, chart.y.title);
-  drawHorizontal(paint, frame, y, chart.lines);
-  const double f = frame.font, slot = (frame.x1 - frame.x0) / static_cast<double>(groups.size());
+  double gutter = 0.0;  // the labels of the lines stand beside the boxes, never under them
+  for (const ReferenceLine& line : chart.lines)
+    gutter = std::max(gutter, textWidth(line.label, 0.9 * frame.font, true) + 0.5 * frame.font);
+  gutter = std::min(gutter, 0.4 * (frame.x1 - frame.x0));
+  const double f = frame.font, slot = (frame.x1 - gutter - frame.x0) / static_cast<double>(groups.size());
   const double half = std::min(0.28 * slot, 4.5 * f);
   const Stroke pen{.colour = ink, .width = f / 9.0};
   for (std::size_t n = 0; n < groups.size(); ++n) {
@@ -104,6 +107,7 @@ void paintChart(Painter& paint, const BoxPlot& chart, const ChartSize& size) {
     paint.line({x - half, y(box.median)}, {x + half, y(box.median)}, {.colour = ink, .width = f / 5.0});
     for (const double v : box.outliers) paint.disc({x, y(v)}, f / 4.0, ink, 0.8);
   }
+  drawHorizontal(paint, frame, y, chart.lines);
   paint.line({frame.x0, frame.y1}, {frame.x1, frame.y1}, {.colour = ink, .width = f / 12.0});
 }
 

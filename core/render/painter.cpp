@@ -19,7 +19,25 @@ void Painter::frame(double x0, double y0, double x1, double y1, const Stroke& st
 }
 
 void Painter::polyline(const std::vector<Point>& points, const Stroke& stroke) {
-  for (std::size_t n = 1; n < points.size(); ++n) line(points[n - 1], points[n], stroke);
+  if (!stroke.dashed) {
+    for (std::size_t n = 1; n < points.size(); ++n) line(points[n - 1], points[n], stroke);
+    return;
+  }
+  // Dashes run on around corners, so that an outline of many short pieces is dashed too.
+  Stroke solid = stroke;
+  solid.dashed = false;
+  const double on = std::max(6.0, 4.0 * stroke.width), period = on + std::max(4.0, 2.5 * stroke.width);
+  double phase = 0.0;
+  for (std::size_t n = 1; n < points.size(); ++n) {
+    const Point d = points[n] - points[n - 1];
+    const double length = d.norm();
+    for (double s = 0.0; s < length;) {
+      const double left = (phase < on ? on : period) - phase, step = std::min(left, length - s);
+      if (phase < on) line(points[n - 1] + d * (s / length), points[n - 1] + d * ((s + step) / length), solid);
+      s += step;
+      phase = step < left ? phase + step : (phase < on ? on : 0.0);
+    }
+  }
 }
 
 void RasterPainter::blend(int x, int y, Rgb colour, double alpha) {

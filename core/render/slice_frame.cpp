@@ -89,6 +89,9 @@ void drawLegend(RasterPainter& paint, const std::vector<LegendItem>& legend, dou
 
 void drawColourBar(RasterPainter& paint, const ColourBar& bar, double x, double y0, double height, double font_px) {
   const double width = 1.3 * font_px;
+  y0 = std::floor(y0);  // whole rows: colours must not mix with the page
+  x = std::floor(x);
+  height = std::floor(height);
   for (int n = 0; n < static_cast<int>(height); ++n)
     paint.rectangle(x, y0 + n, x + width, y0 + n + 1, bar.map.at(1.0 - (n + 0.5) / height));
   paint.frame(x, y0, x + width, y0 + height, {.colour = faint, .width = 1.0});

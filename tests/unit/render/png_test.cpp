@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 
@@ -73,6 +74,20 @@ TEST(Painter, lineCoversLengthTimesWidth) {
   for (std::size_t n = 0; n < p.rgb.size(); n += 3) sum += p.rgb[n] / 255.0;
   const double area = 4.0 * std::hypot(78.0, 51.0) + 3.14159 * 4.0;  // round ends
   EXPECT_NEAR(sum, area, 0.02 * area);
+}
+
+/// Dashes run on around corners: an outline of many short pieces is inked for the same share as one long line.
+TEST(Painter, dashesRunOnAroundCorners) {
+  std::vector<Point> pieces;
+  for (int n = 0; n <= 300; ++n) pieces.emplace_back(10.0 + n, 20.5);
+  const auto ink = [](const std::vector<Point>& points) {
+    Picture p = blankPicture(320, 40, {0, 0, 0});
+    RasterPainter(p).polyline(points, {.colour = {255, 255, 255}, .width = 2.0, .dashed = true});
+    return std::count(p.rgb.begin() + 3L * 320 * 20, p.rgb.begin() + 3L * 320 * 21, std::uint8_t{255}) / 3;
+  };
+  const auto one = ink({pieces.front(), pieces.back()}), many = ink(pieces);
+  EXPECT_NEAR(static_cast<double>(many), static_cast<double>(one), 12.0);
+  EXPECT_LT(one, 260);
 }
 
 }  // namespace
