@@ -68,6 +68,35 @@ bool prune(image::Mask& line, const image::ScalarVolume& depth_mm) {
   return !shortest.empty();
 }
 
+/// Ends run into a corner of a blunt tip: voxels there that are less than 0.6 times as deep as the tube within two
+/// radii of the tip are taken off.
+void trimEnds(image::Mask& line, const image::ScalarVolume& depth_mm) {
+  const Graph g = graphOf(line);
+  for (std::size_t end = 0; end < g.voxels.size(); ++end) {
+    if (g.next[end].size() != 1) continue;
+    std::vector<std::size_t> path{end};
+    double deepest_mm = static_cast<double>(depth_mm.at(g.voxels[end])), way_mm = 0.0;
+    int before = -1, at = static_cast<int>(end);
+    while (way_mm < 2.0 * deepest_mm + line.grid.spacing_mm.minCoeff()) {
+      const std::vector<int>& next = g.next[static_cast<std::size_t>(at)];
+      if (next.size() > 2 || (at != static_cast<int>(end) && next.size() != 2)) break;
+      const int onward = next[0] == before ? next.back() : next[0];
+      way_mm += (g.voxels[static_cast<std::size_t>(onward)] - g.voxels[static_cast<std::size_t>(at)])
+                    .cast<double>()
+                    .cwiseProduct(line.grid.spacing_mm)
+                    .norm();
+      before = at;
+      at = onward;
+      path.push_back(static_cast<std::size_t>(at));
+      deepest_mm = std::max(deepest_mm, static_cast<double>(depth_mm.at(g.voxels[path.back()])));
+    }
+    for (const std::size_t v : path) {
+      if (static_cast<double>(depth_mm.at(g.voxels[v])) >= 0.6 * deepest_mm) break;
+      line.at(g.voxels[v]) = 0;
+    }
+  }
+}
+
 /// Radius of the tube at p across the line: median over 16 rays of the way to where the mask, interpolated between
 /// voxel centres, falls to one half. The depth of the voxel solid would be too small by the height of its steps.
 double radiusAt(const Eigen::Vector3d& p_lps, const Eigen::Vector3d& along, const image::ScalarVolume& inside,
@@ -126,6 +155,7 @@ Centreline centrelineOf(const image::Mask& mask) {
   image::Mask line = skeleton(mask);
   while (prune(line, depth_mm)) {
   }
+  trimEnds(line, depth_mm);
   const Graph g = graphOf(line);
   for (const Eigen::Vector3i& v : g.voxels) result.points_lps_mm.push_back(mask.grid.indexToLps(v.cast<double>()));
   for (std::size_t v = 0; v < g.next.size(); ++v)

@@ -1,0 +1,192 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "image/components.h"
+#include "image/distance.h"
+#include "image/morphology.h"
+#include "image/resample.h"
+#include "support/support.h"
+
+namespace glisson::image {
+namespace {
+
+Grid oblique(const Eigen::Vector3i& size, const Eigen::Vector3d& spacing_mm) {
+  Grid g;
+  g.size = size;
+  g.spacing_mm = spacing_mm;
+  g.origin_lps_mm = {-20, 35, 700};
+  g.direction = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -1, 2).normalized()).toRotationMatrix() *
+                Eigen::Matrix3d(Eigen::Vector3d(1, -1, 1).asDiagonal());
+  return g;
+}
+
+TEST(Resample, LinearFieldIsExactAndTheBorderHolds) {
+  const Grid g = oblique({12, 9, 7}, {1.3, 2.1, 5});
+  auto field = [](const Eigen::Vector3d& p) { return 3.0 + 0.1 * p.x() - 0.2 * p.y() + 0.05 * p.z(); };
+  ScalarVolume v(g);
+  for (int k = 0; k < 7; ++k)
+    for (int j = 0; j < 9; ++j)
+      for (int i = 0; i < 12; ++i) v.at(i, j, k) = static_cast<float>(field(g.indexToLps(Eigen::Vector3d(i, j, k))));
+  Random random(4);
+  for (int n = 0; n < 500; ++n) {
+    const Eigen::Vector3d index(random.uniform(0, 11), random.uniform(0, 8), random.uniform(0, 6));
+    EXPECT_NEAR(sampleLinear(v, g.indexToLps(index), -1.0F), field(g.indexToLps(index)), 1e-5);
+  }
+  EXPECT_EQ(sampleLinear(v, g.indexToLps({-0.4, 0, 0}), -1.0F), v.at(0, 0, 0));
+  EXPECT_EQ(sampleLinear(v, g.indexToLps({-0.6, 0, 0}), -1.0F), -1.0F);
+  EXPECT_EQ(sampleLinear(v, g.indexToLps({0, 8.6, 0}), -1.0F), -1.0F);
+  v.at(5, 5, 5) = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(sampleLinear(v, g.indexToLps({5.5, 5, 5}), -1.0F)));
+  EXPECT_FALSE(std::isnan(sampleLinear(v, g.indexToLps({6, 5, 5}), -1.0F)));  // weight 0 does not spread it
+}
+
+TEST(Resample, OwnGridGivesTheSameBits) {
+  const Mask f = glisson::test::letterF();
+  EXPECT_EQ(resampleNearest(f, f.grid).values, f.values);
+  ScalarVolume v(f.grid);
+  Random random(8);
+  for (float& x : v.values) x = static_cast<float>(random.normal());
+  EXPECT_EQ(resampleLinear(v, f.grid, 0.0F).values, v.values);
+  EXPECT_EQ(resampleNearest(v, f.grid, 0.0F).values, v.values);
+}
+
+TEST(Resample, NearestTakesTheVoxelThatHoldsTheCentre) {
+  const Grid coarse = oblique({5, 4, 3}, {3, 3, 6});
+  Grid fine = coarse;  // every coarse voxel is 3 × 3 × 3 fine ones
+  fine.size = coarse.size * 3;
+  fine.spacing_mm = coarse.spacing_mm / 3.0;
+  fine.origin_lps_mm = coarse.indexToLps(Eigen::Vector3d::Constant(-1.0 / 3.0));
+  LabelMap labels(coarse);
+  for (std::size_t i = 0; i < labels.values.size(); ++i) labels.values[i] = static_cast<std::int32_t>(i);
+  const LabelMap r = resampleNearest(labels, fine);
+  for (int k = 0; k < 9; ++k)
+    for (int j = 0; j < 12; ++j)
+      for (int i = 0; i < 15; ++i) EXPECT_EQ(r.at(i, j, k), labels.at(i / 3, j / 3, k / 3));
+  EXPECT_FALSE(voxelAt(coarse, coarse.indexToLps({-0.51, 0, 0})).has_value());
+  EXPECT_EQ(voxelAt(coarse, coarse.indexToLps({0.5, 0, 0}))->x(), 1);
+}
+
+/// Distance from a voxel centre to the box of another voxel, brute force.
+double toBox(const Grid& g, const Eigen::Vector3i& a, const Eigen::Vector3i& b) {
+  const Eigen::Vector3d gap = ((a - b).cast<double>().cwiseAbs().array() - 0.5).cwiseMax(0.0);
+  return gap.cwiseProduct(g.spacing_mm).norm();
+}
+
+TEST(Distance, EqualsBruteForceOnAnisotropicGrids) {
+  Random random(12);
+  for (const double density : {0.02, 0.5, 0.95}) {
+    const Grid g = oblique({9, 8, 6}, {0.7, 1.9, 4.0});
+    Mask m(g);
+    for (auto& v : m.values) v = random.uniform() < density ? 1 : 0;
+    m.at(4, 4, 3) = 1;
+    const ScalarVolume d = distanceToBoundary_mm(m);
+    const std::vector<std::size_t> near = nearestInside(m);
+    std::vector<Eigen::Vector3i> all;
+    for (int k = -1; k <= 6; ++k)
+      for (int j = -1; j <= 8; ++j)
+        for (int i = -1; i <= 9; ++i) all.emplace_back(i, j, k);
+    for (const auto& p : all) {
+      if (!g.contains(p)) continue;
+      double other = 1e9, centre = 1e9;
+      for (const auto& q : all) {
+        const bool in = g.contains(q) && m.at(q) != 0;
+        if (in != (m.at(p) != 0)) other = std::min(other, toBox(g, p, q));
+        if (in) centre = std::min(centre, (p - q).cast<double>().cwiseProduct(g.spacing_mm).norm());
+      }
+      EXPECT_NEAR(d.at(p), m.at(p) != 0 ? other : -other, 1e-5);
+      const std::size_t n = near[g.linear(p)];
+      ASSERT_EQ(m.values[n], 1);
+      const Eigen::Vector3i q(static_cast<int>(n % 9), static_cast<int>(n / 9 % 8), static_cast<int>(n / 72));
+      EXPECT_NEAR((p - q).cast<double>().cwiseProduct(g.spacing_mm).norm(), centre, 1e-9);
+    }
+  }
+  EXPECT_THROW(distanceToBoundary_mm(Mask(oblique({3, 3, 3}, {1, 1, 1}))), BadInput);
+}
+
+TEST(Distance, BallHasItsDepthAndThreadsDoNotMatter) {
+  Grid g = oblique({60, 60, 60}, {1, 1, 1});
+  Mask m(g);
+  for (int k = 0; k < 60; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 60; ++i) m.at(i, j, k) = (Eigen::Vector3d(i, j, k) - Eigen::Vector3d(30, 30, 30)).norm() < 20;
+  setThreadCount(1);
+  const ScalarVolume d = distanceToBoundary_mm(m);
+  setThreadCount(2);
+  EXPECT_EQ(distanceToBoundary_mm(m).values, d.values);
+  setThreadCount(0);
+  EXPECT_NEAR(d.at(30, 30, 30), 20, 0.87);  // half a voxel diagonal
+  EXPECT_NEAR(d.at(30, 30, 40), 10, 0.87);
+  EXPECT_NEAR(d.at(30, 30, 57), -7, 0.87);
+  // A ball eroded by 5 mm is a ball of 15, dilated by 5 mm one of 25, to half a voxel diagonal.
+  const double unit = 4.0 / 3.0 * M_PI;
+  EXPECT_NEAR(std::cbrt(static_cast<double>(count(erode(m, 5))) / unit), 15, 0.87);
+  EXPECT_NEAR(std::cbrt(static_cast<double>(count(dilate(m, 5))) / unit), 25, 0.87);
+}
+
+TEST(Morphology, ErosionAndDilationAreDual) {
+  const Grid g = oblique({14, 13, 12}, {1, 1.5, 2});
+  Random random(6);
+  Mask m(g);
+  for (int k = 4; k < 8; ++k)
+    for (int j = 4; j < 9; ++j)
+      for (int i = 4; i < 10; ++i) m.at(i, j, k) = random.uniform() < 0.9 ? 1 : 0;
+  Mask complement = m;
+  for (auto& v : complement.values) v = v != 0 ? 0 : 1;
+  for (const double r : {0.0, 0.6, 1.3, 2.2}) {
+    const Mask a = erode(m, r), b = dilate(complement, r);
+    for (std::size_t i = 0; i < a.values.size(); ++i) EXPECT_NE(a.values[i], b.values[i]);
+  }
+  EXPECT_EQ(erode(m, 0).values, m.values);
+  EXPECT_EQ(count(erode(Mask(g), 1)), 0u);
+  EXPECT_THROW(erode(m, -1), BadArgument);
+  EXPECT_THROW(dilate(m, std::nan("")), BadArgument);
+}
+
+TEST(Morphology, InPlaneErosionStaysInItsSlice) {
+  Mask m(oblique({15, 15, 3}, {1, 3, 10}));
+  for (int j = 2; j < 13; ++j)
+    for (int i = 2; i < 13; ++i) m.at(i, j, 1) = 1;
+  const Mask e = erodeInPlane(m, 3);
+  EXPECT_EQ(count(e), 25u);  // a square of 11 leaves one of 5, a lone slice is not worn away from above
+  EXPECT_EQ(e.at(5, 5, 1), 1);
+  EXPECT_EQ(erodeInPlane(m, 0).values, m.values);
+  m.at(7, 7, 1) = 0;  // a hole wears away a disk round it
+  EXPECT_EQ(count(erodeInPlane(m, 1)), 81u - 5u);
+  EXPECT_THROW(erodeInPlane(m, -1), BadArgument);
+}
+
+TEST(Components, AreSortedBySizeAndJoinedByFacesOnly) {
+  Mask m(oblique({10, 10, 10}, {1, 1, 1}));
+  for (int i = 0; i < 3; ++i) m.at(i, 0, 0) = 1;
+  for (int i = 3; i < 9; ++i) m.at(i, 1, 0) = 1;  // touches the first along an edge only
+  m.at(5, 5, 5) = 1;
+  const Components parts = components(m);
+  EXPECT_EQ(parts.voxels, (std::vector<std::size_t>{6, 3, 1}));
+  EXPECT_EQ(parts.labels.at(4, 1, 0), 1);
+  EXPECT_EQ(parts.labels.at(0, 0, 0), 2);
+  EXPECT_EQ(parts.labels.at(5, 5, 5), 3);
+  EXPECT_EQ(count(largestComponent(m)), 6u);
+  EXPECT_TRUE(components(Mask(m.grid)).voxels.empty());
+  EXPECT_EQ(count(largestComponent(Mask(m.grid))), 0u);
+}
+
+TEST(Components, HolesAreFilledAndBaysAreNot) {
+  Mask m(oblique({10, 10, 10}, {1, 1, 1}));
+  for (int k = 2; k < 8; ++k)
+    for (int j = 2; j < 8; ++j)
+      for (int i = 2; i < 8; ++i) m.at(i, j, k) = 1;
+  const Mask solid = m;
+  m.at(4, 4, 4) = m.at(5, 4, 4) = 0;
+  EXPECT_EQ(fillHoles(m).values, solid.values);
+  Mask bay = solid;
+  for (int k = 4; k < 8; ++k) bay.at(4, 4, k) = 0;
+  EXPECT_EQ(fillHoles(bay).values, bay.values);
+}
+
+}  // namespace
+}  // namespace glisson::image
