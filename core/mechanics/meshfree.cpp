@@ -130,7 +130,7 @@ Eigen::VectorXd MeshfreeModel::nearest(const NodalField& u_m) const {
   if (factor.status() != SolveStatus::Converged)
     throw SolverFailed("the mesh-free mass matrix has no Cholesky factor; use fewer frames", 0, 1.0, 0.0);
   Eigen::VectorXd q;
-  factor.solve([this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y.noalias() = M_ * x; }, b, q, 1e-12);
+  factor.solve([this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { symmetricTimes(M_, x, y); }, b, q, 1e-12);
   return q;
 }
 
@@ -144,7 +144,7 @@ Solution MeshfreeModel::solveStatic(const NodalField& f_N, const SolverOptions& 
     throw BadInput("a mesh-free model has no multigrid solver; choose auto, factorised or cg");
   requireSupported(voxels_->mesh(), supports_);
   const Eigen::VectorXd b = load(f_N);
-  const VectorMap apply = [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y.noalias() = K_ * x; };
+  const VectorMap apply = [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) { symmetricTimes(K_, x, y); };
   Eigen::VectorXd q;
   SolveReport report;
   const bool factorise =

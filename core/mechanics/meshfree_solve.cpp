@@ -53,6 +53,25 @@ double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 }  // namespace
 
+void symmetricTimes(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+  y.resize(A.rows());
+  const int* outer = A.outerIndexPtr();
+  const int* inner = A.innerIndexPtr();
+  const double* value = A.valuePtr();
+  parallelChunks(static_cast<std::size_t>(A.cols()), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) {
+      double even = 0.0, odd = 0.0;
+      int p = outer[j];
+      for (; p + 1 < outer[j + 1]; p += 2) {
+        even += value[p] * x[inner[p]];
+        odd += value[p + 1] * x[inner[p + 1]];
+      }
+      if (p < outer[j + 1]) even += value[p] * x[inner[p]];
+      y[static_cast<Eigen::Index>(j)] = even + odd;
+    }
+  });
+}
+
 SolveReport conjugateGradients(const VectorMap& A, const VectorMap& precondition, const Eigen::VectorXd& b,
                                Eigen::VectorXd& x, int iterations, double tolerance, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();

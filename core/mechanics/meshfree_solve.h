@@ -14,6 +14,10 @@ namespace glisson::mechanics {
 /// y = A x; y has the right size already.
 using VectorMap = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& y)>;
 
+/// y = A x for a symmetric compressed matrix (column j is row j, so that threads write apart). Same bits with any
+/// threads.
+void symmetricTimes(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& x, Eigen::VectorXd& y);
+
 /// Conjugate gradients from the start x (warm start), A symmetric positive definite, `precondition` approximates A⁻¹
 /// (empty: none). Stops at iterations, at the tolerance on ‖b − A x‖/‖b‖, at pᵀAp ≤ 0 (Indefinite) or at a value that
 /// is not finite (NotFinite; x is then the last finite iterate). The residual reported is recomputed from x. b = 0
