@@ -38,7 +38,8 @@ Eigen::Matrix<double, 8, 8> hexMass(const Eigen::Vector3d& h_m);
 /// A box has three mirror planes; Walsh functions over its corners therefore split K₀ into eight 3×3 blocks.
 /// blocks[p](c, d) = 1/64 Σ_{a,b} (−1)^{|a ∧ m_c| + |b ∧ m_d|} K₀(3a + c, 3b + d), m_c = p ⊕ 2^c, so that
 /// K₀(3a + c, 3b + d) = Σ over p of (−1)^{...} blocks[p](c, d). Ten times fewer operations than the dense product.
-/// Throws BadArgument where K₀ lacks the symmetry (entries outside the blocks above 1e-12 of the largest).
+/// The entries of translations are
+/// exactly 0. Throws BadArgument where K₀ lacks the symmetry (entries outside the blocks above 1e-12 of the largest).
 std::array<Eigen::Matrix3d, 8> walshBlocks(const HexMatrix& K0);
 
 }  // namespace glisson::mechanics

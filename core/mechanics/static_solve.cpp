@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "base/error.h"
@@ -130,7 +131,7 @@ struct StaticSolver::State {
         return result;
       }
       if (residual >= result.residual) break;
-      const bool slow = residual > 0.1 * result.residual;
+      const bool slow = residual > 0.5 * result.residual;
       result.residual = residual;
       x.swap(better);
       r.swap(d);
@@ -286,6 +287,17 @@ Solution StaticSolver::solve(const NodalField& f_N, const Progress& progress) {
     NodalField w;
     s.op.fromSlots(x.data(), w);
     solution.u_m += scale * w;
+    NodalField forces = s.op.diagonal().cwiseProduct(solution.u_m);
+    s.op.project(forces);
+    const double floor = 4 * std::numeric_limits<double>::epsilon() * forces.norm() / b.norm();
+    SolveReport& report = solution.report;
+    if (report.status == SolveStatus::StoppedAtLimit && report.residual <= floor) {
+      std::ostringstream note;
+      note << "; the residual reached the rounding of double precision, " << floor << ", above the tolerance asked for";
+      report.why += note.str();
+      report.tolerance = floor;
+      report.status = SolveStatus::Converged;
+    }
   }
   const NodalField internal = s.op.applyFree(solution.u_m);
   const NodalField springs = s.op.springForce(solution.u_m);
