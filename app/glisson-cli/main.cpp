@@ -50,7 +50,6 @@ int main(int argc, char** argv) {
   addMeasure(app, context);
   addPlan(app, context);
   addRun(app, context);
-  addRender(app, context);
 
   try {
     app.parse(argc, argv);

@@ -21,7 +21,7 @@ std::string summary(const pipeline::RunResult& r) {
     << "load        (" << p.load_N.transpose() << ") N, reaction (" << p.reaction_N.transpose() << ") N\n"
     << "strain      max " << p.max_strain << ", 95 % below " << p.p95_strain << "; largest rotation "
     << p.max_rotation_deg << " deg\n";
-  if (p.validity.empty()) t << "validity    linear theory can be trusted here\n";
+  if (p.linearTrusted) t << "validity    linear theory can be trusted here\n";
   for (const std::string& v : p.validity) t << "validity    " << v << "\n";
   if (r.difference)
     t << "difference  mean " << r.difference->mean_mm << " mm, 95 % below " << r.difference->p95_mm << " mm, max "
@@ -44,7 +44,9 @@ void addRun(CLI::App& app, Context& context) {
     context.action = [&context, scenePath, colourBlind] {
       pipeline::Scene scene = pipeline::readScene(*scenePath);
       if (context.seedGiven) scene.setup.seed = scene.setup.model.meshfree.seed = context.seed;
-      render::setBackend(context.renderBackend);
+      render::setRenderBackend(context.renderBackend == "egl"   ? render::RenderBackend::Egl
+                               : context.renderBackend == "x11" ? render::RenderBackend::X11
+                                                                : render::RenderBackend::Auto);
       pipeline::RunOptions options;
       options.output = context.output.empty() ? scenePath->parent_path() / "glisson-run" : context.output;
       options.palette = *colourBlind ? render::Palette::ColourBlind : render::Palette::RedBlue;

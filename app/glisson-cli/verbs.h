@@ -42,6 +42,5 @@ void addConvert(CLI::App& app, Context& context);
 void addMeasure(CLI::App& app, Context& context);
 void addPlan(CLI::App& app, Context& context);
 void addRun(CLI::App& app, Context& context);
-void addRender(CLI::App& app, Context& context);
 
 }  // namespace glisson::cli

@@ -148,8 +148,10 @@ retraction::Model buildModel(const Scene& scene, const Inputs& inputs, const ima
   }
   if (!inputs.stiffness) throw BadArgument("buildModel: the inputs hold no stiffness map");
   const elastography::StiffnessMap& map = *inputs.stiffness;
-  image::ScalarVolume E =
-      m.kind == MaterialSpec::Kind::Map ? mapOnCells(map, cells) : elastography::fillStiffness(map, cells);
+  image::ScalarVolume E = m.kind == MaterialSpec::Kind::Map
+                              ? mapOnCells(map, cells)
+                              : elastography::fillStiffness(map, cells, inputs.roiOnMre ? &inputs.roiOnMre->mask : nullptr)
+                                    .values_kPa;
   for (float& v : E.values)
     if (v != 0.0f) v = youngs_kPa(static_cast<double>(v), map.quantity, scene.setup.poisson);
   return retraction::makeModel(std::move(E), scene.setup.poisson, scene.setup.density,

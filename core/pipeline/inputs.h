@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "elastography/roi_mapping.h"
 #include "elastography/stiffness_map.h"
 #include "image/volume.h"
 #include "pipeline/scene.h"
@@ -18,10 +19,11 @@ struct Inputs {
   std::optional<roi::ContourStack> contours;            ///< region of interest as polygons, where it came as such
   std::optional<image::Mask> liver;                     ///< region of interest as voxels (MRI grid, or the mask's own)
   std::optional<elastography::StiffnessMap> stiffness;  ///< MRE or map, with its confidence
+  std::optional<elastography::MappedRoi> roiOnMre;      ///< region of interest on the grid of the elastogram
   std::vector<std::string> warnings;
 };
 
-/// Reads what the scene names. Throws BadInput.
+/// Reads what the scene needs and nothing else. Throws BadInput.
 Inputs loadInputs(const Scene& scene, const Progress& progress = {});
 
 }  // namespace glisson::pipeline

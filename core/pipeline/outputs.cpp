@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "image/extend.h"
 #include "image/io.h"
+#include "render/maps.h"
 #include "report/html.h"
 
 namespace glisson::pipeline::detail {
@@ -18,7 +19,7 @@ using report::number;
 /// How far the tissue around the liver follows it in the pictures; beyond, nothing moves.
 constexpr double pictureMargin_mm = 40.0;
 
-std::string text(const Eigen::Vector3d& v) { return number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()); }
+std::string inWords(const Eigen::Vector3d& v) { return number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()); }
 
 /// Something to warp where the scene has no image: the stiffness of the body, which is all that is known of it.
 image::ScalarVolume stiffnessAsImage(const RunResult& r) { return r.model.youngs_kPa; }
@@ -57,7 +58,7 @@ render::RetractionScene retractionScene(const Scene& scene, const Inputs& inputs
     }
   p.clinicallySignificant_mm = defaults::clinicallySignificant.mm();
   p.caption = caption(scene, r);
-  p.valid = r.primary.validity.empty() && (!r.atlas || r.atlas->validity.empty());
+  p.valid = r.primary.linearTrusted && (!r.atlas || r.atlas->linearTrusted);
   return p;
 }
 
@@ -108,15 +109,15 @@ void Writer::vessels(const Scene&, const RunResult& r, const anatomy::VesselMode
   text("vessels.csv", csv.text());
 }
 
-void Writer::stiffness(const elastography::Statistics& s) {
+void Writer::stiffness(const elastography::Measurement& m) {
   report::Csv csv({"slice", "quantity", "n", "n_before_mask", "area_mm2", "mean_kPa", "median_kPa", "sd_kPa", "min_kPa", "max_kPa"});
-  const std::string quantity = s.quantity == StiffnessQuantity::Shear ? "shear" : "youngs";
-  auto row = [&](const std::string& name, const elastography::SliceStatistics& v) {
+  const std::string quantity = m.quantity == StiffnessQuantity::Shear ? "shear" : "youngs";
+  auto row = [&](const std::string& name, const elastography::Statistics& v) {
     csv.row({name, quantity, std::to_string(v.n), std::to_string(v.n_before_mask), number(v.area_mm2, 7), number(v.mean_kPa, 7),
              number(v.median_kPa, 7), number(v.sd_kPa, 7), number(v.min_kPa, 7), number(v.max_kPa, 7)});
   };
-  for (const auto& slice : s.slices) row(std::to_string(slice.slice), slice);
-  row("pooled", s.pooled);
+  for (const auto& slice : m.slices) row(std::to_string(slice.slice), slice.statistics);
+  row("pooled", m.pooled);
   text("stiffness.csv", csv.text());
 }
 
@@ -132,7 +133,9 @@ void Writer::sliceOverlays(const Scene&, const Inputs&, const RunResult& r, rend
     o.slice = std::clamp(static_cast<int>(std::lround(index.z())), 0, r.picture->mri.grid.size.z() - 1);
     render::writePng(note("overlay-retractor.png"), render::sliceOverlay(*r.picture, o));
   }
-  render::writePng(note("difference-map.png"), render::differenceMap(*r.picture, o));
+  render::MapOptions mapOptions{.high = 10.0};
+  mapOptions.slice = render::sliceOfLargestDifference(*r.picture);
+  render::writePng(note("difference-map.png"), render::differencePicture(*r.picture, mapOptions));
 }
 
 void Writer::overlays3D(const RunResult& r, render::Palette palette) {
@@ -172,13 +175,13 @@ void Writer::report(const Scene& scene, const RunResult& r) {
   }
   page.table(rows);
   page.heading("Can it be trusted?");
-  if (r.primary.validity.empty()) page.paragraph("Strains and rotations are small enough for linear theory.");
+  if (r.primary.linearTrusted) page.paragraph("Strains and rotations are small enough for linear theory.");
   page.list(r.primary.validity);
   page.table({{"Solver", r.primary.solver.kind + ", relative residual " + number(r.primary.solver.residual, 2)},
               {"Strain, largest / 95 % below", number(r.primary.max_strain, 3) + " / " + number(r.primary.p95_strain, 3)},
               {"Largest rotation", number(r.primary.max_rotation_deg, 3) + " degrees"},
-              {"Load", text(r.primary.load_N) + " N"},
-              {"Reaction", text(r.primary.reaction_N) + " N"}});
+              {"Load", inWords(r.primary.load_N) + " N"},
+              {"Reaction", inWords(r.primary.reaction_N) + " N"}});
   page.list(r.warnings);
   page.heading("Pictures");
   for (const auto& f : r.files) {

@@ -43,7 +43,7 @@ Json resultToJson(const retraction::Result& r, const Scene& scene) {
   j["fraction_over_10pct_strain"] = r.fraction_over_10pct;
   j["max_rotation_deg"] = r.max_rotation_deg;
   j["max_displacement_mm"] = r.max_displacement_mm;
-  j["linear_valid"] = r.validity.empty();
+  j["linear_valid"] = r.linearTrusted;
   j["validity"] = r.validity;
   if (r.retractorPoint_mm) j["retractor_point_mm"] = toJson(*r.retractorPoint_mm);
   return j;
@@ -119,7 +119,7 @@ std::string runRecord(const Scene& scene, const RunResult& r) {
                                     {"fraction_beyond_5mm", d.vesselFractionBeyond}};
   }
   if (r.stiffness) {
-    const elastography::SliceStatistics& s = r.stiffness->pooled;
+    const elastography::Statistics& s = r.stiffness->pooled;
     j["stiffness"] = {{"quantity", r.stiffness->quantity == StiffnessQuantity::Shear ? "shear" : "youngs"},
                       {"n", s.n},
                       {"n_before_mask", s.n_before_mask},

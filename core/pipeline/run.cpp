@@ -102,9 +102,10 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   r.warnings = inputs.warnings;
 
   steps.run("measure-stiffness", [&](const Progress&) {
-    if (!inputs.stiffness || !inputs.liver) throw BadArgument("run: no elastogram or no region of interest was loaded");
-    r.stiffness = inputs.contours ? elastography::measure(*inputs.stiffness, *inputs.contours)
-                                  : elastography::measure(*inputs.stiffness, *inputs.liver);
+    if (!inputs.stiffness || !inputs.roiOnMre) throw BadArgument("run: no elastogram or no region of interest was loaded");
+    elastography::MeasureOptions measureOptions;
+    measureOptions.poisson = scene.setup.poisson;
+    r.stiffness = elastography::measure(*inputs.stiffness, inputs.roiOnMre->mask, measureOptions);
     for (const std::string& w : r.stiffness->warnings) r.warnings.push_back(w);
   });
 
@@ -119,13 +120,14 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   steps.run(needs.timeSteps ? "time-steps" : "solve", [&](const Progress& p) {
     r.primary = retraction::simulate(r.model, scene.setup, scene.outputs.probes_mm, p);
   });
+  r.warnings.insert(r.warnings.end(), r.primary.notes.begin(), r.primary.notes.end());
   if (scene.compare) {
     double factor = 1.0;
     if (detail::sameStiffness(r.model, atlasModel)) {
       r.atlas = r.primary;
       steps.leaveOut("atlas-solve", "the material is the atlas itself: the second answer is the first");
     } else if (followsByScaling(scene, r.model, atlasModel, factor)) {
-      r.atlas = retraction::scaled(r.model, r.primary, factor);
+      r.atlas = retraction::scaled(atlasModel, scene.setup, scene.outputs.probes_mm, r.primary, factor);
       steps.leaveOut("atlas-solve", "one modulus throughout and clamps only: displacement is proportional to 1/E");
     }
     steps.run("atlas-solve", [&](const Progress& p) {

@@ -21,9 +21,47 @@ struct Answer {
   mechanics::Solution solution;
   int dofs = 0;
   int steps = 0;
+  std::vector<std::string> notes;
 };
 
-Answer solve(const mechanics::Problem& problem, const Setup& setup, const Progress& progress);
+mechanics::DynamicOptions dynamicOptions(const AnalysisSpec& a) {
+  mechanics::DynamicOptions d;
+  d.h_s = 1e-3 * a.h_ms;
+  d.end_s = a.end_s;
+  d.rayleighAlpha_1_s = a.rayleigh[0];
+  d.rayleighBeta_s = a.rayleigh[1];
+  d.stopWhenSteady = a.stopWhenSteady;
+  return d;
+}
+
+Answer solve(const mechanics::Problem& problem, const Setup& setup, const Progress& progress) {
+  Answer a;
+  mechanics::SolverOptions options = setup.solver;
+  options.element = setup.model.element;
+  if (setup.model.kind == ModelKind::Meshfree) {
+    const mechanics::MeshfreeModel model(problem, setup.model.meshfree, setup.model.element, progress.part(0.0, 0.5));
+    a.dofs = model.dofs();
+    a.notes = model.notes();
+    if (setup.analysis.dynamic) {
+      mechanics::DynamicSolution d =
+          mechanics::solveDynamic(model, dynamicOptions(setup.analysis), options, progress.part(0.5, 1.0));
+      a.steps = d.trajectory.steps;
+      a.solution = std::move(d.solution);
+    } else {
+      a.solution = model.solveStatic(options, progress.part(0.5, 1.0));
+    }
+    return a;
+  }
+  if (setup.analysis.dynamic) {
+    mechanics::DynamicSolution d = mechanics::solveDynamic(problem, dynamicOptions(setup.analysis), options, progress);
+    a.steps = d.trajectory.steps;
+    a.solution = std::move(d.solution);
+  } else {
+    a.solution = mechanics::solveStatic(problem, options, progress);
+  }
+  a.dofs = static_cast<int>(3 * a.solution.u_m.cols());
+  return a;
+}
 
 image::DisplacementField atCellCentres(const Body& body, const image::Grid& grid, const mechanics::NodalField& u_m) {
   image::DisplacementField field(grid, Eigen::Vector3f::Zero());
@@ -35,6 +73,87 @@ image::DisplacementField atCellCentres(const Body& body, const image::Grid& grid
   return field;
 }
 
+std::vector<Eigen::Vector3d> interpolate(const Body& body, const mechanics::NodalField& u_m,
+                                         const std::vector<Eigen::Vector3d>& points_mm) {
+  std::vector<Eigen::Vector3d> out;
+  out.reserve(points_mm.size());
+  for (const Eigen::Vector3d& p : points_mm) {
+    const auto u = mechanics::displacementAt(body.mesh(), u_m, body.toLocal_m(p));
+    out.push_back(u ? body.vectorToLps(mToMm * *u)
+                    : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()).eval());
+  }
+  return out;
+}
+
+Result readBack(const Model& model, const Body& body, const MechanicsScene& scene, Answer answer,
+                const std::vector<Eigen::Vector3d>& probes_mm) {
+  Result r;
+  const mechanics::Solution& s = answer.solution;
+  r.solver = s.report;
+  r.dofs = answer.dofs;
+  r.steps = answer.steps;
+  r.notes = std::move(answer.notes);
+  r.energy_J = s.energy_J;
+  r.load_N = body.vectorToLps(scene.problem.f_N.rowwise().sum());
+  r.reaction_N = body.vectorToLps(s.reaction_N.rowwise().sum());
+  r.u_mm = atCellCentres(body, model.youngs_kPa.grid, s.u_m);
+
+  const mechanics::DeformationSummary m = mechanics::summarise(body.mesh(), s.u_m);
+  const mechanics::Validity validity = mechanics::validity(body.mesh(), m);
+  r.max_displacement_mm = mToMm * m.maxDisplacement_m;
+  r.max_strain = m.maxStrain;
+  r.p95_strain = m.p95Strain;
+  r.p99_strain = m.p99Strain;
+  r.fraction_over_10pct = m.fractionAbove10;
+  r.max_rotation_deg = m.maxRotation_deg;
+  r.linearTrusted = validity.linearTrusted && s.report.converged();
+  r.validity = validity.warnings;
+  r.drawable = s.report.converged() && !validity.invalid;
+  if (!s.report.converged())
+    r.validity.insert(r.validity.begin(), "the solve did not converge: " + mechanics::describe(s.report.status) +
+                                              "; these numbers are not the answer");
+
+  if (scene.contact) {
+    r.retractorPoint_mm = scene.contact->centre_mm;
+    for (const SurfaceFace* f : scene.contact->faces) r.contactNodes.insert(r.contactNodes.end(), f->nodes.begin(), f->nodes.end());
+    std::sort(r.contactNodes.begin(), r.contactNodes.end());
+    r.contactNodes.erase(std::unique(r.contactNodes.begin(), r.contactNodes.end()), r.contactNodes.end());
+  }
+  r.probe_u_mm = interpolate(body, s.u_m, probes_mm);
+  for (std::size_t i = 0; i < probes_mm.size(); ++i)
+    if (!r.probe_u_mm[i].allFinite()) r.notes.push_back("probe " + std::to_string(i) + " lies outside the body: it has no displacement");
+  r.nodal_u_m = std::move(answer.solution.u_m);
+  return r;
+}
+
 }  // namespace
+
+Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,
+                const Progress& progress) {
+  const Body body(model);
+  const MechanicsScene scene = toMechanics(body, model, setup);
+  return readBack(model, body, scene, solve(scene.problem, setup, progress), probes_mm);
+}
+
+Result scaled(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm, const Result& result,
+              double factor) {
+  const Body body(model);
+  const MechanicsScene scene = toMechanics(body, model, setup);
+  Answer answer;
+  answer.solution.u_m = factor * result.nodal_u_m;
+  answer.solution.energy_J = factor * result.energy_J;
+  answer.solution.report = result.solver;
+  answer.solution.report.why = "proportional to the other answer";
+  answer.solution.reaction_N = mechanics::NodalField::Zero(3, result.nodal_u_m.cols());
+  answer.dofs = result.dofs;
+  Result r = readBack(model, body, scene, std::move(answer), probes_mm);
+  r.reaction_N = result.reaction_N;
+  return r;
+}
+
+std::vector<Eigen::Vector3d> displacementAt(const Model& model, const Result& result,
+                                            const std::vector<Eigen::Vector3d>& points_mm) {
+  return interpolate(Body(model), result.nodal_u_m, points_mm);
+}
 
 }  // namespace glisson::retraction

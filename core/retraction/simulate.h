@@ -31,7 +31,7 @@ struct Result {
   image::DisplacementField u_mm;      ///< at cell centres of the model's grid, 0 outside
   mechanics::NodalField nodal_u_m;    ///< 3 × nodes, the grid's own axes, m
   std::vector<Eigen::Vector3d> probe_u_mm;  ///< one per probe, LPS
-  std::vector<std::string> probeWarnings;
+  std::vector<std::string> notes;     ///< what the model changed, probes that lie outside
   int dofs = 0;
   int steps = 0;                      ///< time steps; 0 when static
   mechanics::SolveReport solver;
@@ -42,7 +42,8 @@ struct Result {
   double fraction_over_10pct = 0.0;   ///< of the volume
   double max_rotation_deg = 0.0;
   double max_displacement_mm = 0.0;
-  std::vector<std::string> validity;  ///< warnings in words; empty: linear theory can be trusted
+  bool linearTrusted = false;         ///< the verdict
+  std::vector<std::string> validity;  ///< warnings in words, most serious first
   bool drawable = true;               ///< false: not converged, inverted cells, displacement larger than the body
   std::optional<Eigen::Vector3d> retractorPoint_mm;      ///< centre of the contact
   std::vector<int> contactNodes;
@@ -52,6 +53,11 @@ struct Result {
 /// Throws BadInput (no support, no contact, unknown region), SolverFailed never: status is in the result.
 Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,
                 const Progress& progress = {});
+
+/// The answer where every modulus is 1/factor of the one that gave `result`, same load, clamps only: displacement and energy
+/// times factor. Saves a solve.
+Result scaled(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm, const Result& result,
+              double factor);
 
 /// Displacement at points in mm (LPS), by the shape functions of the cell that holds the point; points outside the body
 /// take the nearest cell within one cell, else NaN.

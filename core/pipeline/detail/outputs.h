@@ -22,7 +22,7 @@ class Writer {
   void text(const std::string& name, const std::string& content);
   void displacementFields(const RunResult& r);
   void vessels(const Scene& scene, const RunResult& r, const anatomy::VesselModel& vessels);
-  void stiffness(const elastography::Statistics& s);
+  void stiffness(const elastography::Measurement& m);
   void sliceOverlays(const Scene& scene, const Inputs& inputs, const RunResult& r, render::Palette palette);
   void overlays3D(const RunResult& r, render::Palette palette);
   void report(const Scene& scene, const RunResult& r);

@@ -1,0 +1,108 @@
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "pipeline/sources.h"
+#include "verbs.h"
+
+namespace glisson::cli {
+namespace {
+
+struct Arguments {
+  std::filesystem::path mre, roi, mri;
+  std::string quantity, unit, name;
+  int label = 0;
+  int erosion_pixels = 0;
+  double confidence = defaults::confidenceThreshold;
+  double poisson = 0.5;
+};
+
+Json orNull(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+Json toJson(const elastography::Statistics& s) {
+  Json j;
+  j["n"] = s.n;
+  j["n_before_mask"] = s.n_before_mask;
+  j["area_mm2"] = s.area_mm2;
+  j["mean_kPa"] = orNull(s.mean_kPa);
+  j["median_kPa"] = orNull(s.median_kPa);
+  j["sd_kPa"] = orNull(s.sd_kPa);
+  j["min_kPa"] = orNull(s.min_kPa);
+  j["max_kPa"] = orNull(s.max_kPa);
+  return j;
+}
+
+int measure(const Arguments& a, const Context& context) {
+  pipeline::MapMeaning meaning;
+  if (!a.quantity.empty())
+    meaning.quantity = a.quantity == "shear" ? StiffnessQuantity::Shear : StiffnessQuantity::Youngs;
+  if (!a.unit.empty()) meaning.unit = a.unit;
+  const Progress progress = context.progress();
+  const pipeline::LoadedStiffness mre = pipeline::loadStiffness(a.mre, meaning, progress.part(0.0, 0.6));
+  const pipeline::LoadedRoi roi = pipeline::loadRoi(a.roi, a.name, a.label, progress.part(0.6, 0.8));
+  std::optional<image::Grid> mriGrid;
+  if (!a.mri.empty()) mriGrid = pipeline::loadImage(a.mri, progress.part(0.8, 0.9)).volume.grid;
+  const elastography::MappedRoi mapped = pipeline::mapRoi(roi, mriGrid, mre.map);
+
+  elastography::MeasureOptions options;
+  options.confidenceThreshold = a.confidence;
+  options.erosion_pixels = a.erosion_pixels;
+  options.poisson = a.poisson;
+  const elastography::Measurement m = elastography::measure(mre.map, mapped.mask, options);
+  progress.report(1.0, "measured");
+
+  Json j;
+  j["quantity"] = m.quantity == StiffnessQuantity::Shear ? "shear" : "youngs";
+  j["pooled"] = toJson(m.pooled);
+  j["slices"] = Json::array();
+  for (const elastography::SliceStatistics& s : m.slices) {
+    Json one = {{"slice", s.slice}};
+    one.update(toJson(s.statistics));
+    j["slices"].push_back(one);
+  }
+  j["area_weighted_mean_kPa"] = orNull(m.areaWeightedMean_kPa);
+  j["youngs_mean_kPa"] = orNull(m.youngs_mean_kPa);
+  j["shear_mean_kPa"] = orNull(m.shear_mean_kPa);
+  j["poisson"] = m.poisson;
+  j["roi_coverage"] = mapped.coverage;
+  j["left_out"] = {{"not_finite", m.notFinite}, {"not_positive", m.notPositive}, {"low_confidence", m.lowConfidence}};
+  std::vector<std::string> warnings = mre.warnings;
+  for (const auto* more : {&roi.warnings, &mapped.warnings, &m.warnings})
+    warnings.insert(warnings.end(), more->begin(), more->end());
+  j["warnings"] = warnings;
+
+  std::ostringstream text;
+  text.precision(4);
+  auto line = [&](const std::string& name, const elastography::Statistics& s) {
+    text << name << "  " << s.n_before_mask << " px -> " << s.n << " after mask, " << s.area_mm2 << " mm2, "
+         << s.mean_kPa << " +- " << s.sd_kPa << " kPa, median " << s.median_kPa << ", " << s.min_kPa << " to "
+         << s.max_kPa << "\n";
+  };
+  text << (m.quantity == StiffnessQuantity::Shear ? "shear modulus" : "Young's modulus") << "\n";
+  for (const elastography::SliceStatistics& s : m.slices) line("slice " + std::to_string(s.slice), s.statistics);
+  line("pooled", m.pooled);
+  text << "mean Young's modulus " << m.youngs_mean_kPa << " kPa at Poisson's ratio " << m.poisson << "\n";
+  for (const std::string& w : warnings) text << "warning: " << w << "\n";
+  context.print(j, text.str());
+  return Ok;
+}
+
+}  // namespace
+
+void addMeasure(CLI::App& app, Context& context) {
+  CLI::App* verb = app.add_subcommand("measure", "stiffness statistics of a region of interest, per slice and pooled");
+  auto a = std::make_shared<Arguments>();
+  verb->add_option("--mre", a->mre, "elastogram: DICOM folder, or a stiffness map")->required();
+  verb->add_option("--roi", a->roi, "region of interest: contour JSON, RT Structure Set or mask")->required();
+  verb->add_option("--mri", a->mri, "image that the contours were drawn on, where its slices differ from the elastogram's");
+  verb->add_option("--quantity", a->quantity, "what a bare map holds")->check(CLI::IsMember({"shear", "youngs"}));
+  verb->add_option("--unit", a->unit, "unit of a bare map: Pa, kPa or <factor>kPa");
+  verb->add_option("--label", a->label, "label of a mask, 0 = any");
+  verb->add_option("--name", a->name, "structure of an RT Structure Set");
+  verb->add_option("--confidence", a->confidence, "voxels below are left out, 0 to 1")->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--erode", a->erosion_pixels, "inner region of interest: pixels to take off the border")->check(CLI::Range(0, 100));
+  verb->add_option("--poisson", a->poisson, "for Young's modulus; 0.5 is incompressible, E = 3 mu")->check(CLI::Range(0.0, 0.5));
+  verb->callback([&context, a] { context.action = [&context, a] { return measure(*a, context); }; });
+}
+
+}  // namespace glisson::cli

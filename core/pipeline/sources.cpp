@@ -1,0 +1,131 @@
+#include "pipeline/sources.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/error.h"
+#include "dicom/rtstruct.h"
+#include "elastography/roi_from_structures.h"
+#include "image/io.h"
+#include "roi/contour_io.h"
+
+namespace glisson::pipeline {
+namespace {
+
+std::string lowerExtension(const std::filesystem::path& p) {
+  std::string e = p.extension().string();
+  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return e;
+}
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& from) { to.insert(to.end(), from.begin(), from.end()); }
+
+void noteSkipped(const dicom::ScanResult& scan, std::vector<std::string>& warnings) {
+  for (const dicom::SkippedFile& f : scan.skipped)
+    if (warnings.size() < 20) warnings.push_back("skipped '" + f.file.filename().string() + "': " + f.reason);
+}
+
+/// The series of that role; where no series has it and there is only one, that one.
+const dicom::Series& seriesFor(const dicom::ScanResult& scan, dicom::SeriesRole role) {
+  const bool any = std::any_of(scan.series.begin(), scan.series.end(), [&](const auto& s) { return s.role == role; });
+  if (!any && scan.series.size() == 1) return scan.series.front();
+  return dicom::findRole(scan, role);
+}
+
+}  // namespace
+
+AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& progress) {
+  AnatomicalImage out;
+  if (std::filesystem::is_regular_file(path) && image::isVolumeFile(path)) {
+    out.volume = image::readVolume(path);
+    return out;
+  }
+  const dicom::ScanResult scan = dicom::scan(path, progress.part(0.0, 0.4));
+  if (scan.series.empty())
+    throw BadInput("no image series was found in '" + path.filename().string() + "'" +
+                   (scan.skipped.empty() ? "" : ": " + scan.skipped.front().reason));
+  const dicom::Series& series = seriesFor(scan, dicom::SeriesRole::Anatomical);
+  out.volume = dicom::readSeries(series, progress.part(0.4, 1.0));
+  out.frameOfReferenceUid = series.frameOfReferenceUid;
+  out.patientKey = series.patientKey;
+  out.warnings = series.warnings;
+  return out;
+}
+
+LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeaning& meaning, const Progress& progress) {
+  LoadedStiffness out;
+  if (std::filesystem::is_regular_file(path) && image::isVolumeFile(path)) {
+    if (!meaning.quantity || !meaning.unit)
+      throw BadInput("'" + path.filename().string() +
+                     "' is a bare map: say what it holds, quantity shear or youngs and unit Pa, kPa or <factor>kPa");
+    out.map = elastography::makeStiffnessMap(image::readVolume(path), *meaning.quantity, *meaning.unit);
+    return out;
+  }
+  const dicom::ScanResult scan = dicom::scan(path, progress.part(0.0, 0.4));
+  if (scan.series.empty())
+    throw BadInput("no image series was found in '" + path.filename().string() + "'" +
+                   (scan.skipped.empty() ? "" : ": " + scan.skipped.front().reason));
+  const dicom::Series& series = seriesFor(scan, dicom::SeriesRole::Stiffness);
+  if (series.colour)
+    throw BadInput("the series '" + series.description + "' is in colour: a coloured elastogram is not a stiffness map; "
+                   "choose the grey-scale stiffness series");
+  const std::optional<std::string> unit = meaning.unit ? meaning.unit : series.unit;
+  if (!unit)
+    throw BadInput("the series '" + series.description + "' does not say in which unit its stiffness is; give the unit (Pa, kPa or <factor>kPa)");
+  // MR elastography reports the shear modulus unless told otherwise.
+  out.map = elastography::makeStiffnessMap(dicom::readSeries(series, progress.part(0.4, 0.8)),
+                                           meaning.quantity.value_or(StiffnessQuantity::Shear), *unit);
+  out.map.frameOfReferenceUid = series.frameOfReferenceUid;
+  out.patientKey = series.patientKey;
+  append(out.warnings, series.warnings);
+  noteSkipped(scan, out.warnings);
+  for (const dicom::Series& s : scan.series)
+    if (s.role == dicom::SeriesRole::Confidence && !s.error && s.studyUid == series.studyUid) {
+      elastography::attachConfidence(out.map, dicom::readSeries(s, progress.part(0.8, 1.0)));
+      break;
+    }
+  if (!out.map.confidence)
+    out.warnings.push_back("there is no confidence map: every voxel of the region of interest counts");
+  return out;
+}
+
+LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, int label, const Progress& progress) {
+  LoadedRoi out;
+  if (std::filesystem::is_directory(path)) {
+    // A folder with one structure set or one contour file in it.
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::directory_iterator(path))
+      if (entry.is_regular_file()) found.push_back(entry.path());
+    std::sort(found.begin(), found.end());
+    std::string last = "the folder is empty";
+    for (const auto& file : found) {
+      try {
+        return loadRoi(file, name, label, progress);
+      } catch (const BadInput& e) {
+        last = e.what();
+      }
+    }
+    throw BadInput("no region of interest was found in '" + path.filename().string() + "': " + last);
+  }
+  if (lowerExtension(path) == ".json") {
+    out.contours = roi::readContours(path);
+  } else if (image::isVolumeFile(path)) {
+    out.mask = image::readMask(path, label);
+  } else {
+    dicom::StructureSet set = dicom::readRtStruct(path);
+    append(out.warnings, set.warnings);
+    out.contours = elastography::roiFromStructures(set, name);
+    if (out.contours->frameOfReferenceUid.empty()) out.contours->frameOfReferenceUid = set.frameOfReferenceUid;
+  }
+  return out;
+}
+
+elastography::MappedRoi mapRoi(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
+                               const elastography::StiffnessMap& map) {
+  if (roi.contours)
+    return elastography::mapRoi(*roi.contours, mriGrid, map.values_kPa.grid, map.frameOfReferenceUid);
+  if (roi.mask) return elastography::mapRoi(*roi.mask, map.values_kPa.grid);
+  throw BadArgument("mapRoi: the region of interest is empty");
+}
+
+}  // namespace glisson::pipeline

@@ -1,0 +1,139 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "image/io.h"
+#include "pipeline/run.h"
+#include "support/support.h"
+
+namespace glisson::pipeline {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A scene on the letter F as a mask, with a map of one modulus, springs all round and a push.
+std::string letterScene(const std::string& material, const std::string& outputs) {
+  return R"({ "schema": "glisson/scene/1", "geometry": { "kind": "mask", "file": "F.nii.gz" }, "material": )" + material +
+         R"(, "supports": [ { "region": {"surface":"all"}, "kind": "spring", "stiffness_kPa_per_mm": 0.05 } ],
+      "loads": [ { "kind": "traction", "region": {"surface":"inferior"}, "kPa": [0.05,-0.02,0.2] } ],
+      "compare": { "against": "atlas" }, "outputs": )" +
+         outputs + "}";
+}
+
+class LetterRun : public testing::Test {
+ protected:
+  void SetUp() override {
+    mask_ = test::letterF();
+    image::writeVolume(folder_ / "F.nii.gz", mask_);
+    image::ScalarVolume map(mask_.grid, 0.0f);
+    for (std::size_t i = 0; i < map.values.size(); ++i) map.values[i] = mask_.values[i] ? 2100.0f : 0.0f;
+    image::writeVolume(folder_ / "mu.nrrd", map);
+    for (std::size_t i = 0; i < map.values.size(); ++i)
+      map.values[i] = mask_.values[i] ? 3000.0f + 50.0f * static_cast<float>(i % 20) : 0.0f;
+    image::writeVolume(folder_ / "stiff.nrrd", map);
+  }
+  Scene scene(const std::string& map, const std::string& outputs = R"(["displacement-field"])") {
+    return parseScene(letterScene(R"({"map":")" + map + R"(","quantity":"shear","unit":"Pa"})", outputs), folder_.path());
+  }
+  test::TemporaryFolder folder_;
+  image::Mask mask_;
+};
+
+TEST_F(LetterRun, MapEqualToTheAtlasGivesExactlyNoDifference) {
+  const RunResult r = run(scene("mu.nrrd"), {});
+  ASSERT_TRUE(r.difference.has_value());
+  EXPECT_EQ(r.difference->max_mm, 0.0);
+  EXPECT_EQ(r.difference->mean_mm, 0.0);
+  EXPECT_GT(r.primary.max_displacement_mm, 0.01);
+  for (const PlanStep& s : r.plan)
+    if (s.step == "atlas-solve") EXPECT_FALSE(s.needed) << s.why;
+}
+
+TEST_F(LetterRun, StifferLiverMovesLess) {
+  const RunResult r = run(scene("stiff.nrrd"), {});
+  EXPECT_LT(r.primary.energy_J, r.atlas->energy_J);
+  EXPECT_GT(r.difference->max_mm, 0.0);
+  EXPECT_TRUE(r.primary.solver.converged());
+}
+
+TEST_F(LetterRun, SameBitsWithAnyNumberOfThreads) {
+  setThreadCount(1);
+  const RunResult one = run(scene("stiff.nrrd"), {});
+  for (const int threads : {2, 4}) {
+    setThreadCount(threads);
+    const RunResult more = run(scene("stiff.nrrd"), {});
+    EXPECT_EQ(one.primary.nodal_u_m, more.primary.nodal_u_m) << threads << " threads";
+    EXPECT_EQ(one.difference->mean_mm, more.difference->mean_mm);
+  }
+  setThreadCount(0);
+}
+
+TEST_F(LetterRun, LetterKeepsItsShapeAndPlaceThroughTheModel) {
+  // Cells of the model are the voxels of the file, at the same place in the patient.
+  const RunResult r = run(scene("stiff.nrrd"), {});
+  std::size_t cells = 0;
+  const image::Grid& g = r.model.youngs_kPa.grid;
+  for (int k = 0; k < g.size.z(); ++k)
+    for (int j = 0; j < g.size.y(); ++j)
+      for (int i = 0; i < g.size.x(); ++i) {
+        const Eigen::Vector3d index = mask_.grid.lpsToIndex(g.indexToLps(Eigen::Vector3d(i, j, k)));
+        const Eigen::Vector3i at = index.array().round().cast<int>();
+        ASSERT_LT((index - at.cast<double>()).norm(), 1e-4);
+        ASSERT_EQ(r.model.youngs_kPa.at(i, j, k) > 0, mask_.at(at) != 0) << at.transpose();
+        cells += r.model.youngs_kPa.at(i, j, k) > 0 ? 1 : 0;
+      }
+  EXPECT_EQ(cells, r.model.cells);
+  EXPECT_GT(cells, 100u);
+}
+
+TEST_F(LetterRun, WhatIsNotAskedForChangesNoBitOfWhatIs) {
+  const RunResult lean = run(scene("stiff.nrrd", "[]"), {});
+  const test::TemporaryFolder out;
+  RunOptions options;
+  options.output = out.path();
+  const RunResult full = run(scene("stiff.nrrd", R"(["displacement-field","overlay","report"])"), options);
+  EXPECT_EQ(lean.primary.nodal_u_m, full.primary.nodal_u_m);
+  EXPECT_EQ(lean.difference->p95_mm, full.difference->p95_mm);
+  EXPECT_FALSE(lean.picture.has_value());
+  EXPECT_TRUE(std::filesystem::exists(out / "run.json"));
+  EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
+  EXPECT_TRUE(std::filesystem::exists(out / "displacement-mre.nrrd"));
+}
+
+TEST_F(LetterRun, RecordHoldsNoPath) {
+  const RunResult r = run(scene("stiff.nrrd"), {});
+  EXPECT_THAT(r.json, Not(HasSubstr(folder_.path().string())));
+  EXPECT_THAT(r.json, HasSubstr("\"sha256\""));
+}
+
+TEST_F(LetterRun, VoxelWithoutStiffnessIsNamed) {
+  image::ScalarVolume map(mask_.grid, 3000.0f);
+  map.at(4, 5, 3) = 0.0f;
+  image::writeVolume(folder_ / "hole.nrrd", map);
+  try {
+    run(scene("hole.nrrd"), {});
+    FAIL() << "a voxel without stiffness was accepted";
+  } catch (const BadInput& e) {
+    EXPECT_THAT(e.what(), HasSubstr("slice 3"));
+  }
+}
+
+TEST_F(LetterRun, CancelStopsTheRun) {
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(run(scene("stiff.nrrd"), {}, Progress({}, stop.get_token())), Cancelled);
+}
+
+TEST(Run, SceneWithoutSupportOrLoadIsRefused) {
+  const Scene s = parseScene(R"({"schema":"glisson/scene/1","geometry":{"kind":"box","size_mm":[10,10,10]},
+    "material":{"youngs_kPa":12}})", ".");
+  EXPECT_THROW(run(s, {}), BadInput);
+}
+
+}  // namespace
+}  // namespace glisson::pipeline
