@@ -15,12 +15,13 @@ namespace glisson::mechanics {
 ///   Factorised  supernodal Cholesky, refined; up to factorisedLimit degrees of freedom, beyond that BadInput with the
 ///               memory it would take.
 ///   Multigrid   geometric multigrid (float) inside conjugate gradients (double).
-///   Auto        chooses from size and contrast and says why in SolveReport::why; where the multigrid does not converge
-///   it
-///               falls back on Factorised (when small enough), then on block-Jacobi conjugate gradients.
+///   Auto        chooses from size and contrast and says why in SolveReport::why; where the multigrid does not
+///               converge it falls back on Factorised (when small enough), then on block-Jacobi conjugate gradients.
 /// The relative residual is ‖P(f − K u)‖ / ‖P(f − K ū)‖, ū the prescribed displacement extended by 0, P the free
 /// degrees of freedom: without prescribed displacements ‖f − K u‖ / ‖f‖. f = 0 gives exactly u = 0. No absolute
-/// thresholds.
+/// thresholds. Storing u in double already leaves a residual of about ε ‖diag(K) u‖; where that floor lies above the
+/// tolerance asked for, a solve that reaches it is Converged, SolveReport::tolerance is the floor, and SolveReport::why
+/// says so.
 class StaticSolver {
  public:
   static constexpr int factorisedLimit = 60000;  ///< degrees of freedom
