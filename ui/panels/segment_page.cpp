@@ -86,7 +86,7 @@ QWidget* SegmentPage::makeSide() {
                    tr("Close or accept the outline (Enter; both at once: Ctrl+Enter)"));
   accept_->setProperty("primary", true);
   for (QPushButton* b : {undo_, redo_, delete_}) row->addWidget(b);
-  row->addWidget(accept_, 1);
+  side->addWidget(accept_);
   side->addLayout(row);
   const auto key = [this](tools::ToolKey k) { session_.apply(session_.tool().key(k, mri_->plane())); };
   connect(undo_, &QPushButton::clicked, &session_, &session::Session::undo);
@@ -127,6 +127,7 @@ QWidget* SegmentPage::makeSide() {
   outlines_->setObjectName(QStringLiteral("outlineList"));
   outlines_->setHeaderLabels({tr("Slice"), tr("Vertices"), tr("State")});
   outlines_->setRootIsDecorated(false);
+  outlines_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   outlines_->header()->setSectionResizeMode(QHeaderView::Stretch);
   side->addWidget(outlines_, 1);
   connect(outlines_, &QTreeWidget::itemClicked, this,

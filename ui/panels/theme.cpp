@@ -8,6 +8,12 @@
 #include <QPixmap>
 #include <QStyleFactory>
 
+/// The icons are in a static library, whose resources only come along when asked for. Outside any namespace by Qt's
+/// rule.
+static void bringIcons() {
+  Q_INIT_RESOURCE(icons);
+}
+
 namespace glisson::panels {
 
 namespace {
@@ -112,6 +118,7 @@ void applyTheme(Theme theme) {
 }
 
 QIcon icon(const QString& name, const QColor& colour) {
+  bringIcons();
   QFile file(QStringLiteral(":/icons/%1.svg").arg(name));
   if (!file.open(QIODevice::ReadOnly)) return {};
   QByteArray svg = file.readAll();

@@ -99,7 +99,9 @@ OpenImages readImages(const dicom::ScanResult& scan, const dicom::ScanResult& gu
 }
 
 void Session::openPath(const QString& path) {
-  const std::filesystem::path folder = path.toStdString();
+  std::error_code unknown;
+  const std::filesystem::path folder =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(path.toStdString(), unknown), unknown);
   startLoad([folder](const Progress&) { return folder; }, tr("Opening"));
 }
 

@@ -84,6 +84,11 @@ void SliceView::renderSlice() {
     auto* line = reinterpret_cast<QRgb*>(image_.scanLine(j));
     const float* values = &volume_.values->values[grid.linear(0, j, slice_)];
     for (int i = 0; i < nx; ++i) {
+      // No stiffness at all is no colour of the scale: it stays dark.
+      if (volume_.stiffness && !(values[i] > 0.0F)) {
+        line[i] = paper.rgb();
+        continue;
+      }
       const double level = (static_cast<double>(values[i]) - volume_.low) * scale;
       line[i] = colours[static_cast<std::size_t>(std::isfinite(level) ? std::clamp(level, 0.0, 255.0) : 0.0)];
     }
@@ -95,7 +100,9 @@ void SliceView::renderSlice() {
   const QRgb shade = qPremultiply(qRgba(8, 10, 14, 120)), stripe = qPremultiply(qRgba(235, 238, 245, 120));
   for (int j = 0; j < ny; ++j) {
     const float* confidence = &volume_.confidence->values[grid.linear(0, j, slice_)];
+    const float* values = &volume_.values->values[grid.linear(0, j, slice_)];
     for (int i = 0; i < nx; ++i) {
+      if (!(values[i] > 0.0F)) continue;
       if (static_cast<double>(confidence[i]) >= volume_.confidenceThreshold) continue;
       for (int y = j * hatchScale; y < (j + 1) * hatchScale; ++y) {
         auto* line = reinterpret_cast<QRgb*>(hatch_.scanLine(y));
@@ -124,10 +131,19 @@ void SliceView::paintImage(QPainter& painter) const {
 void SliceView::paintContours(QPainter& painter) const {
   if (!contours_ || hidden_) return;
   const tools::SlicePlane shown = plane();
+  // Thick slices hold several drawn planes: where nothing is edited only those nearest to the middle are shown.
+  const auto offPlane_mm = [&shown](const roi::Polygon& polygon) {
+    const Eigen::Vector3d index = shown.grid.lpsToIndex(polygon.points_lps_mm.rowwise().mean());
+    return std::abs(index.z() - shown.slice) * shown.grid.spacing_mm.z();
+  };
+  double nearest_mm = 0.5 * shown.grid.spacing_mm.z();
+  for (const roi::Polygon& polygon : contours_->polygons)
+    if (!tool_ && shown.holds(polygon)) nearest_mm = std::min(nearest_mm, offPlane_mm(polygon));
   const std::optional<tools::Hit> hover = tool_ ? tool_->hover() : std::nullopt;
   for (std::size_t p = 0; p < contours_->polygons.size(); ++p) {
     const roi::Polygon& polygon = contours_->polygons[p];
     if (!shown.holds(polygon)) continue;
+    if (!tool_ && offPlane_mm(polygon) > nearest_mm + 0.1) continue;
     const bool selected = tool_ && tool_->selected() == p;
     const bool moving = selected && tool_->preview().cols() > 0;
     const QPolygonF outline = toScreen(moving ? tool_->preview() : polygon.points_lps_mm, shown);

@@ -1,0 +1,251 @@
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QSlider>
+#include <QTableWidget>
+#include <QTest>
+#include <QTimer>
+#include <algorithm>
+#include <cmath>
+
+#include "panels/compare_page.h"
+#include "panels/main_window.h"
+#include "panels/step_rail.h"
+#include "panels/theme.h"
+#include "pipeline/run.h"
+#include "support/support.h"
+#include "views/picture_view.h"
+#include "views/slice_view.h"
+
+using glisson::panels::MainWindow;
+using glisson::session::Session;
+using glisson::session::Step;
+using glisson::session::StepState;
+using glisson::views::PictureView;
+using glisson::views::SliceView;
+
+namespace {
+
+constexpr int wait_ms = 300000;
+
+/// The longest time between two ticks of a 5 ms timer: how long the window did not answer.
+class StallWatch : public QObject {
+ public:
+  StallWatch() {
+    clock_.start();
+    connect(&timer_, &QTimer::timeout, this, [this] { worst_ms_ = std::max(worst_ms_, clock_.restart()); });
+    timer_.start(5);
+  }
+  qint64 worst_ms() const { return worst_ms_; }
+
+ private:
+  QTimer timer_;
+  QElapsedTimer clock_;
+  qint64 worst_ms_ = 0;
+};
+
+}  // namespace
+
+/// From a DICOM folder to the overlay, as a hand would do it. The functions run in order on one window.
+class Journey : public QObject {
+  Q_OBJECT
+
+ private:
+  glisson::test::TemporaryFolder folder_;
+  std::unique_ptr<MainWindow> window_;
+
+  Session& session() { return window_->session(); }
+  SliceView* mri() { return window_->findChild<SliceView*>("mriView"); }
+  template <typename W>
+  W* find(const char* name) {
+    W* found = window_->findChild<W*>(QString::fromLatin1(name));
+    if (!found) qFatal("no widget is called %s", name);
+    return found;
+  }
+  void click(const char* name) { QTest::mouseClick(find<QPushButton>(name), Qt::LeftButton); }
+  QPoint pixelOf(const Eigen::Vector3d& p_lps) {
+    const Eigen::Vector2d px = mri()->plane().toPixel(p_lps);
+    return {static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y()))};
+  }
+  /// Draws an ellipse of vertices around a point of the slice shown, closing on the first vertex.
+  void drawEllipse(const Eigen::Vector3d& centre, double rx_mm, double ry_mm, int vertices) {
+    const Eigen::Matrix3d axes = mri()->plane().grid.direction;
+    QPoint first;
+    for (int v = 0; v < vertices; ++v) {
+      const double a = 2.0 * M_PI * v / vertices;
+      const QPoint at = pixelOf(centre + axes * Eigen::Vector3d(rx_mm * std::cos(a), ry_mm * std::sin(a), 0.0));
+      if (v == 0) first = at;
+      QTest::mouseMove(mri(), at);
+      QTest::mouseClick(mri(), Qt::LeftButton, {}, at);
+    }
+    QTest::mouseMove(mri(), first + QPoint(3, 3));
+    QVERIFY(session().tool().closes());
+    QTest::mouseClick(mri(), Qt::LeftButton, {}, first + QPoint(3, 3));
+  }
+
+ private slots:
+  void initTestCase() {
+    glisson::panels::applyTheme(glisson::panels::Theme::Dark);
+    window_ = std::make_unique<MainWindow>();
+    session().setWorkFolder(QString::fromStdString((folder_ / "work").string()));
+    window_->show();
+    QVERIFY(QTest::qWaitForWindowExposed(window_.get()));
+  }
+
+  void everyStepCanBeLookedAtWhileEmpty() {
+    for (const char* name : {"stepSegment", "stepModel", "stepRetract", "stepCompare", "stepLoad"}) {
+      QTest::mouseClick(window_->findChild<QWidget*>(name), Qt::LeftButton);
+      QVERIFY(window_->isVisible());
+    }
+    QCOMPARE(session().status(Step::Segment).state, StepState::Empty);
+    QVERIFY(find<QLabel>("researchUse")->text().contains("not for clinical use"));
+  }
+
+  void opensTheSyntheticPatientFromDicom() {
+    QSignalSpy loaded(&session(), &Session::loaded);
+    StallWatch stalls;
+    session().openSynthetic(3, QString::fromStdString(folder_.path().string()));
+    QCOMPARE(session().status(Step::Load).state, StepState::Running);
+    QVERIFY(loaded.wait(wait_ms));
+    QVERIFY2(session().images().mri, qPrintable(session().status(Step::Load).detail));
+    QVERIFY(session().images().stiffness);
+    QVERIFY(session().images().stiffness->confidence);
+    QCOMPARE(session().status(Step::Load).state, StepState::Done);
+    QCOMPARE(window_->step(), Step::Segment);
+    QVERIFY(find<QTableWidget>("seriesTable")->rowCount() >= 5);
+    qInfo("longest time without an answer while opening: %lld ms", static_cast<long long>(stalls.worst_ms()));
+  }
+
+  void showsNoPatientText() {
+    for (const QLabel* label : window_->findChildren<QLabel*>())
+      QVERIFY2(!label->text().contains("PHANTOM"), qPrintable(label->text()));
+    QVERIFY(!window_->windowTitle().contains("PHANTOM"));
+  }
+
+  void drawsOutlinesWithTheMouse() {
+    // Where the elastogram is trusted most is well inside the liver: the middle of its confident voxels.
+    const auto& map = *session().images().stiffness;
+    const glisson::image::Grid& grid = map.values_kPa.grid;
+    const int k = grid.size.z() / 2;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double n = 0.0;
+    for (int j = 0; j < grid.size.y(); ++j)
+      for (int i = 0; i < grid.size.x(); ++i)
+        if (map.confidence->at(i, j, k) >= 0.95F) sum += grid.indexToLps({1.0 * i, 1.0 * j, 1.0 * k}), n += 1.0;
+    QVERIFY(n > 100.0);
+    const Eigen::Vector3d centre = sum / n;
+
+    QTest::mouseMove(mri(), QPoint(5, 5));
+    mri()->showPoint(centre);
+    const int middle = mri()->slice();
+    std::size_t accepted = 0;
+    for (int slice = middle - 7; slice <= middle + 7; ++slice) {
+      mri()->setSlice(slice);
+      drawEllipse(centre, 30.0, 24.0, 12);
+      QCOMPARE(session().tool().state(), glisson::tools::ToolState::Editing);
+      QTest::keyClick(mri(), Qt::Key_Return);
+      QCOMPARE(session().acceptedCount(), ++accepted);
+    }
+    mri()->setSlice(middle);
+    QTRY_VERIFY(session().statistics().pooled.has_value());
+    QVERIFY(session().statistics().pooled->pooled.n > 100);
+    QTRY_VERIFY(find<QLabel>("liveMean")->text().contains("kPa"));
+    QCOMPARE(session().status(Step::Segment).state, StepState::Done);
+  }
+
+  void undoGoesBackToTheSliceAndRedoRestores() {
+    const auto before = session().contours().polygons.size();
+    const int slice = mri()->slice();
+    mri()->setSlice(slice + 1);
+    mri()->setSlice(0);
+    QTest::mouseClick(find<QPushButton>("undoButton"), Qt::LeftButton);  // accept of the last outline
+    QVERIFY(mri()->slice() != 0);
+    QTest::mouseClick(find<QPushButton>("undoButton"), Qt::LeftButton);  // its drawing
+    QCOMPARE(session().contours().polygons.size(), before - 1);
+    QTest::mouseClick(find<QPushButton>("redoButton"), Qt::LeftButton);
+    QTest::mouseClick(find<QPushButton>("redoButton"), Qt::LeftButton);
+    QCOMPARE(session().contours().polygons.size(), before);
+    QCOMPARE(session().acceptedCount(), before);
+  }
+
+  void aDraftIsParkedNotLost() {
+    const auto before = session().contours().polygons.size();
+    mri()->setSlice(2);
+    for (const QPoint at : {QPoint(120, 120), QPoint(200, 120), QPoint(200, 200)})
+      QTest::mouseClick(mri(), Qt::LeftButton, {}, at);
+    mri()->setSlice(3);
+    QCOMPARE(session().contours().polygons.size(), before + 1);
+    QCOMPARE(session().contours().polygons.back().state, glisson::roi::PolygonState::Draft);
+    session().undo();
+    QCOMPARE(session().contours().polygons.size(), before);
+  }
+
+  void cancelAnswersWithinAQuarterOfASecond() {
+    window_->showStep(Step::Model);
+    find<QDoubleSpinBox>("cellSize")->setValue(6.0);
+    QSignalSpy ended(&session(), &Session::workEnded);
+    QSignalSpy progress(&session(), &Session::progressed);
+    click("modelRunButton");
+    QCOMPARE(session().status(Step::Retract).state, StepState::Running);
+    QVERIFY(progress.wait(wait_ms));
+    QElapsedTimer clock;
+    clock.start();
+    QTest::mouseClick(find<QPushButton>("cancelButton"), Qt::LeftButton);
+    QVERIFY(ended.count() > 0 || ended.wait(wait_ms));
+    qInfo("cancelled after %lld ms", static_cast<long long>(clock.elapsed()));
+    QVERIFY(!session().result());
+    QVERIFY(!session().busy());
+  }
+
+  void runsAndShowsTheOverlay() {
+    auto* compare = window_->findChild<glisson::panels::ComparePage*>();
+    QSignalSpy finished(&session(), &Session::runFinished);
+    QSignalSpy drawn(compare, &glisson::panels::ComparePage::overlayShown);
+    QSignalSpy ended(&session(), &Session::workEnded);
+    window_->showStep(Step::Retract);
+    StallWatch stalls;
+    click("runButton");
+    QVERIFY(ended.wait(wait_ms));
+    QVERIFY2(finished.count() == 1, qPrintable(session().status(Step::Retract).detail));
+    QVERIFY(drawn.count() > 0 || drawn.wait(wait_ms));
+    qInfo("longest time without an answer while running: %lld ms", static_cast<long long>(stalls.worst_ms()));
+    QCOMPARE(window_->step(), Step::Compare);
+    QCOMPARE(session().status(Step::Compare).state, StepState::Done);
+    const QImage overlay = find<PictureView>("overlayView")->picture();
+    int coloured = 0;
+    for (int y = 0; y < overlay.height(); y += 2)
+      for (int x = 0; x < overlay.width(); x += 2) {
+        const QRgb p = overlay.pixel(x, y);
+        if (std::abs(qRed(p) - qBlue(p)) > 24) ++coloured;
+      }
+    QVERIFY2(coloured > 50, "the overlay shows no difference between MRE and atlas");
+    QVERIFY(find<QLabel>("differenceAtRetractor")->text().contains("mm"));
+  }
+
+  void theCommandLineGivesTheSameNumbers() {
+    // What the window ran is the case on disk: run it again from there, as the command line does.
+    const auto scene = glisson::pipeline::readScene(folder_ / "work" / "scene.json");
+    glisson::pipeline::RunOptions options;
+    options.output = folder_ / "again";
+    const auto again = glisson::pipeline::run(scene, options);
+    QVERIFY(again.difference && session().result()->difference);
+    QCOMPARE(again.difference->mean_mm, session().result()->difference->mean_mm);
+    QCOMPARE(again.difference->max_mm, session().result()->difference->max_mm);
+    QCOMPARE(again.difference->at_retractor_mm, session().result()->difference->at_retractor_mm);
+  }
+
+  void aChangeUpstreamMakesTheResultStale() {
+    window_->showStep(Step::Retract);
+    find<QDoubleSpinBox>("retractorDiameter")->setValue(12.0);
+    QCOMPARE(session().status(Step::Compare).state, StepState::Stale);
+    find<QDoubleSpinBox>("retractorDiameter")->setValue(10.0);
+  }
+
+  void cleanupTestCase() { window_.reset(); }
+};
+
+QTEST_MAIN(Journey)
+#include "journey_test.moc"
