@@ -6,6 +6,7 @@
 #include <QTimer>
 #include <iostream>
 
+#include "panels/compare_page.h"
 #include "panels/main_window.h"
 #include "panels/segment_page.h"
 #include "views/slice_view.h"
@@ -46,7 +47,8 @@ void Screenshot::afterLoad() {
     settle();
     return;
   }
-  connect(&window_.session(), &Session::runFinished, this, &Screenshot::settle, Qt::QueuedConnection);
+  connect(window_.findChild<panels::ComparePage*>(), &panels::ComparePage::overlayShown, this, &Screenshot::settle,
+          static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::SingleShotConnection));
   window_.run();
 }
 

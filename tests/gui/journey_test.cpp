@@ -10,6 +10,7 @@
 #include <QTimer>
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "panels/compare_page.h"
 #include "panels/main_window.h"
@@ -230,7 +231,17 @@ class Journey : public QObject {
     const auto scene = glisson::pipeline::readScene(folder_ / "work" / "scene.json");
     glisson::pipeline::RunOptions options;
     options.output = folder_ / "again";
-    const auto again = glisson::pipeline::run(scene, options);
+    glisson::pipeline::RunResult again;
+    std::exception_ptr failure;
+    // On a thread of its own: here the window's OpenGL context is current, and the pictures need one of theirs.
+    std::thread([&] {
+      try {
+        again = glisson::pipeline::run(scene, options);
+      } catch (...) {
+        failure = std::current_exception();
+      }
+    }).join();
+    QVERIFY2(!failure, qPrintable(glisson::session::reasonOf(failure)));
     QVERIFY(again.difference && session().result()->difference);
     QCOMPARE(again.difference->mean_mm, session().result()->difference->mean_mm);
     QCOMPARE(again.difference->max_mm, session().result()->difference->max_mm);

@@ -6,6 +6,8 @@
 
 #include <QLabel>
 #include <QStackedLayout>
+#include <algorithm>
+#include <utility>
 
 #include "views/vtk_widget.h"
 
@@ -54,14 +56,26 @@ void SceneView::setView(render::View3D view) {
   populate(false);
 }
 
+void SceneView::showEvent(QShowEvent*) {
+  if (stale_) populate(true);
+}
+
+// Legend, scale and texts are laid out for the size of the view.
+void SceneView::resizeEvent(QResizeEvent*) {
+  populate(true);
+}
+
 void SceneView::populate(bool keepCamera) {
-  if (!scene_) return;
+  if (!keepCamera) newCamera_ = true;
+  stale_ = scene_ != nullptr;
+  if (!scene_ || !isVisible()) return;
+  stale_ = false;
   vtkNew<vtkCamera> before;
   before->DeepCopy(widget_->renderer()->GetActiveCamera());
-  options_.width = std::max(widget_->width(), 64);
-  options_.height = std::max(widget_->height(), 64);
+  options_.width = std::max(qRound(width() * devicePixelRatioF()), 64);
+  options_.height = std::max(qRound(height() * devicePixelRatioF()), 64);
   render::populate3D(widget_->renderer(), *scene_, options_);
-  if (keepCamera) widget_->renderer()->GetActiveCamera()->DeepCopy(before);
+  if (!std::exchange(newCamera_, false)) widget_->renderer()->GetActiveCamera()->DeepCopy(before);
   widget_->renderer()->ResetCameraClippingRange();
   widget_->update();
 }

@@ -30,10 +30,16 @@ class SceneView : public QWidget {
  signals:
   void rendered();
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void populate(bool keepCamera);
   std::shared_ptr<const render::RetractionScene> scene_;
   render::SceneOptions3D options_;
+  bool stale_ = false;      ///< to be drawn anew when it is next seen
+  bool newCamera_ = false;  ///< and from the preset direction
   VtkWidget* widget_;
   QLabel* hint_;
   QStackedLayout* layout_;
