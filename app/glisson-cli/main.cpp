@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   addMeasure(app, context);
   addPlan(app, context);
   addRun(app, context);
+  addValidate(app, context);
 
   try {
     app.parse(argc, argv);

@@ -42,5 +42,6 @@ void addConvert(CLI::App& app, Context& context);
 void addMeasure(CLI::App& app, Context& context);
 void addPlan(CLI::App& app, Context& context);
 void addRun(CLI::App& app, Context& context);
+void addValidate(CLI::App& app, Context& context);
 
 }  // namespace glisson::cli

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "study/rows.h"
+#include "verbs.h"
+
+namespace glisson::cli {
+
+/// rows[] as every reader of the studies expects them; numbers that do not exist are null.
+Json toJson(const std::vector<study::Row>& rows);
+
+}  // namespace glisson::cli
