@@ -37,7 +37,7 @@ QWidget* RetractPage::makePlayBar() {
   auto* bar = new QWidget;
   auto* row = new QHBoxLayout(bar);
   row->setContentsMargins(14, 8, 14, 8);
-  play_ = button("playButton", {}, QStringLiteral("play"), tr("Play the retraction (Space)"));
+  play_ = button("playButton", {}, QStringLiteral("play"), tr("Play the retraction"));
   play_->setEnabled(false);
   row->addWidget(play_);
   time_ = new QSlider(Qt::Horizontal);

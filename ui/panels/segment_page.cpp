@@ -3,6 +3,7 @@
 #include <QButtonGroup>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QShortcut>
 #include <QSplitter>
 #include <QTreeWidget>
 #include <algorithm>
@@ -120,6 +121,14 @@ QWidget* SegmentPage::makeSide() {
     connect(scale, &QPushButton::clicked, this, [this, high] { setStiffnessScale(high); });
   }
   side->addLayout(scales);
+  auto* switchScale = new QShortcut(QKeySequence(Qt::Key_K), this);
+  connect(switchScale, &QShortcut::activated, this, [group] {
+    for (QAbstractButton* b : group->buttons())
+      if (!b->isChecked()) {
+        b->click();
+        return;
+      }
+  });
 
   side->addSpacing(8);
   side->addWidget(section(tr("Outlines")));
