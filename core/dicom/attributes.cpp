@@ -1,4 +1,4 @@
-#include "dicom/attributes.h"
+#include "dicom/detail/attributes.h"
 
 #include <dcmtk/dcmdata/dcistrmb.h>
 

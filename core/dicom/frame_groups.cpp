@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "dicom/attributes.h"
+#include "dicom/detail/attributes.h"
 
 namespace glisson::dicom {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/sha256.h"
-#include "dicom/attributes.h"
+#include "dicom/detail/attributes.h"
 #include "dicom/frame_groups.h"
 #include "dicom/pixels.h"
 

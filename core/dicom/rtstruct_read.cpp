@@ -3,7 +3,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "dicom/attributes.h"
+#include "dicom/detail/attributes.h"
 #include "dicom/rtstruct.h"
 
 namespace glisson::dicom {

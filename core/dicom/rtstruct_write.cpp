@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/sha256.h"
-#include "dicom/attributes.h"
+#include "dicom/detail/attributes.h"
 #include "dicom/rtstruct.h"
 #include "dicom/write_mr.h"
 

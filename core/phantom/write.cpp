@@ -57,7 +57,7 @@ Json sceneOf(const PhantomPatient& patient) {
   j["material"] = "mre";
   j["supports"] = Json::array();
   for (const char* surface : {"posterior", "superior"})
-    j["supports"].push_back({{"region", {{"surface", surface}}}, {"kind", "spring"}, {"stiffness_kPa_per_mm", 0.2}});
+    j["supports"].push_back({{"region", {{"surface", surface}}}, {"kind", "spring"}, {"stiffness_kPa_per_mm", 0.1}});
   j["loads"] = Json::array({{{"kind", "retractor"},
                              {"diameter_mm", defaults::retractorDiameter.mm()},
                              {"length_mm", 80},

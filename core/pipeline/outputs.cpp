@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 
 #include "anatomy/surface.h"
 #include "base/error.h"
@@ -23,6 +24,45 @@ std::string inWords(const Eigen::Vector3d& v) { return number(v.x()) + ", " + nu
 
 /// Something to warp where the scene has no image: the stiffness of the body, which is all that is known of it.
 image::ScalarVolume stiffnessAsImage(const RunResult& r) { return r.model.youngs_kPa; }
+
+/// Where the two predictions differ most in a slice, in the middle between the two places; the middle of the image where
+/// nothing moves.
+Eigen::Vector3d placeOfLargestDifference(const render::RetractionScene& p, int slice) {
+  const image::Grid& grid = p.u_mre_mm.grid;
+  const image::Grid& mri = p.mri.grid;
+  Eigen::Vector3d place = mri.indexToLps(0.5 * (mri.size - Eigen::Vector3i::Ones()).cast<double>());
+  float largest = 0.0f;
+  for (int j = 0; j < mri.size.y(); ++j)
+    for (int i = 0; i < mri.size.x(); ++i) {
+      const Eigen::Vector3d at = mri.indexToLps(Eigen::Vector3d(i, j, slice));
+      const Eigen::Vector3i liver = p.liver.grid.lpsToIndex(at).array().round().cast<int>();
+      const Eigen::Vector3i ijk = grid.lpsToIndex(at).array().round().cast<int>();
+      if (!p.liver.grid.contains(liver) || !p.liver.at(liver) || !grid.contains(ijk)) continue;
+      const Eigen::Vector3f a = p.u_mre_mm.at(ijk), b = p.u_atlas_mm.at(ijk);
+      if ((a - b).norm() <= largest) continue;
+      largest = (a - b).norm();
+      place = at + 0.5 * (a + b).cast<double>();
+    }
+  return place;
+}
+
+/// The vessel landmark that the two predictions place furthest apart; none where there are no vessels.
+std::optional<Eigen::Vector3d> mostMisplacedVessel(const RunResult& r) {
+  if (!r.difference || r.difference->vessel_mm.size() != r.landmarks_mm.size()) return {};
+  std::optional<Eigen::Vector3d> place;
+  double largest = -1.0;
+  for (std::size_t i = 0; i < r.landmarks_mm.size(); ++i)
+    if (r.difference->vessel_mm[i] > largest) {
+      largest = r.difference->vessel_mm[i];
+      place = r.landmarks_mm[i];
+    }
+  return place;
+}
+
+/// The slice that holds a point.
+int sliceOf(const image::Grid& grid, const Eigen::Vector3d& p_lps) {
+  return std::clamp(static_cast<int>(std::lround(grid.lpsToIndex(p_lps).z())), 0, grid.size.z() - 1);
+}
 
 std::string caption(const Scene& scene, const RunResult& r) {
   const mechanics::SolveReport& s = r.primary.solver;
@@ -58,7 +98,12 @@ render::RetractionScene retractionScene(const Scene& scene, const Inputs& inputs
     }
   p.clinicallySignificant_mm = defaults::clinicallySignificant.mm();
   p.caption = caption(scene, r);
-  p.valid = r.primary.linearTrusted && (!r.atlas || r.atlas->linearTrusted);
+  // A reservation is told in words; what may not be believed at all is not drawn.
+  p.valid = r.primary.drawable && (!r.atlas || r.atlas->drawable);
+  if (!r.primary.linearTrusted && !r.primary.validity.empty())
+    p.mark = "MRE: " + r.primary.validity.front() + ".";
+  else if (r.atlas && !r.atlas->linearTrusted && !r.atlas->validity.empty())
+    p.mark = "Atlas: " + r.atlas->validity.front() + ".";
   return p;
 }
 
@@ -125,16 +170,29 @@ void Writer::sliceOverlays(const Scene&, const Inputs&, const RunResult& r, rend
   if (!r.primary.drawable || (r.atlas && !r.atlas->drawable)) return;
   render::SliceOverlayOptions o;
   o.palette = palette;
-  o.zoomCentre_lps_mm = r.picture->retractorPoint_lps_mm;
-  o.slice = render::sliceOfLargestDifference(*r.picture);
-  render::writePng(note("overlay-largest-difference.png"), render::sliceOverlay(*r.picture, o));
-  if (r.picture->retractorPoint_lps_mm) {
-    const Eigen::Vector3d index = r.picture->mri.grid.lpsToIndex(*r.picture->retractorPoint_lps_mm);
-    o.slice = std::clamp(static_cast<int>(std::lround(index.z())), 0, r.picture->mri.grid.size.z() - 1);
-    render::writePng(note("overlay-retractor.png"), render::sliceOverlay(*r.picture, o));
+  o.margin_mm = 30.0;
+  o.zoom_mm = 60.0;
+  auto draw = [&](const std::string& name, int slice) {
+    o.slice = slice;
+    if (!o.zoomCentre_lps_mm) o.zoomCentre_lps_mm = placeOfLargestDifference(*r.picture, slice);
+    render::writePng(note(name), render::sliceOverlay(*r.picture, o));
+    o.zoomCentre_lps_mm.reset();
+  };
+  const int largest = render::sliceOfLargestDifference(*r.picture);
+  draw("overlay-largest-difference.png", largest);
+  if (const std::optional<Eigen::Vector3d> vessel = mostMisplacedVessel(r)) {
+    // Shown where it ends up, between the two predictions.
+    const Eigen::Vector3d ua = retraction::displacementAt(r.model, r.primary, {*vessel}).front();
+    const Eigen::Vector3d ub = r.atlas ? retraction::displacementAt(r.model, *r.atlas, {*vessel}).front() : ua;
+    const Eigen::Vector3d moved = *vessel + 0.5 * (ua + ub);
+    o.zoomCentre_lps_mm = moved;
+    draw("overlay-vessels.png", sliceOf(r.picture->mri.grid, moved));
   }
+  if (r.picture->retractorPoint_lps_mm)
+    draw("overlay-retractor.png", sliceOf(r.picture->mri.grid, *r.picture->retractorPoint_lps_mm));
   render::MapOptions mapOptions{.high = 10.0};
-  mapOptions.slice = render::sliceOfLargestDifference(*r.picture);
+  mapOptions.slice = largest;
+  mapOptions.margin_mm = 30.0;
   render::writePng(note("difference-map.png"), render::differencePicture(*r.picture, mapOptions));
 }
 

@@ -45,7 +45,10 @@ Json resultToJson(const retraction::Result& r, const Scene& scene) {
   j["max_displacement_mm"] = r.max_displacement_mm;
   j["linear_valid"] = r.linearTrusted;
   j["validity"] = r.validity;
-  if (r.retractorPoint_mm) j["retractor_point_mm"] = toJson(*r.retractorPoint_mm);
+  if (r.retractorPoint_mm) {
+    j["retractor_point_mm"] = toJson(*r.retractorPoint_mm);
+    j["contact_area_mm2"] = r.contactArea_mm2;
+  }
   return j;
 }
 

@@ -137,6 +137,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
 
   anatomy::VesselModel vessels;
   steps.run("vessels", [&](const Progress& p) { vessels = anatomy::findVessels(*inputs.mri, *inputs.liver, p); });
+  r.landmarks_mm = vessels.centreline_lps_mm;
   steps.run("difference", [&](const Progress&) {
     r.difference = comparison::compare(r.model, r.primary, *r.atlas, vessels.centreline_lps_mm);
   });

@@ -28,6 +28,7 @@ struct RunResult {
   retraction::Result primary;                               ///< with the scene's own material
   std::optional<retraction::Result> atlas;                  ///< where the scene compares
   std::optional<comparison::Difference> difference;
+  std::vector<Eigen::Vector3d> landmarks_mm;                ///< vessel centrelines at rest, LPS
   std::optional<elastography::Measurement> stiffness;        ///< over the region of interest, where MRE is used
   std::optional<render::RetractionScene> picture;           ///< what the overlays draw, where they are asked for
   std::vector<std::filesystem::path> files;                 ///< everything written, run.json first

@@ -187,7 +187,7 @@ retraction::LoadSpec readLoad(JsonObject o, const std::filesystem::path& folder)
     retraction::Retractor r;
     r.diameter_mm = positive(o, "diameter_mm", o.number("diameter_mm", defaults::retractorDiameter.mm()));
     r.length_mm = positive(o, "length_mm", o.number("length_mm", 80.0));
-    r.spread_mm = o.number("spread_mm", 0.0);
+    r.spread_mm = o.number("spread_mm", r.spread_mm);
     if (r.spread_mm < 0) o.fail("spread_mm", "must not be negative");
     if (o.has("at")) {
       if (o.raw("at").is_string())

@@ -91,13 +91,17 @@ double Scale::operator()(double value) const {
   return from_ + (to_ - from_) * along(value);
 }
 
+double chartFont(const ChartSize& size) {
+  return std::clamp(std::min(size.width / 52.0, size.height / 36.0), 8.0, 80.0);
+}
+
 ChartFrame beginChart(Painter& paint, const ChartSize& size, const std::string& title, const std::string& caption,
-                      bool legendRow) {
+                      int legendRows) {
   if (size.width < 200 || size.height < 160 || size.width > 20000 || size.height > 20000)
     throw BadArgument("a chart of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
                       " pixels is outside 200 x 160 to 20000 x 20000");
   ChartFrame frame;
-  frame.font = std::clamp(std::min(size.width / 52.0, size.height / 36.0), 8.0, 80.0);
+  frame.font = chartFont(size);
   const double f = frame.font;
   paint.rectangle(0, 0, size.width, size.height, paper);
   if (!title.empty())
@@ -112,7 +116,7 @@ ChartFrame beginChart(Painter& paint, const ChartSize& size, const std::string& 
   }
   frame.x0 = 5.6 * f;
   frame.x1 = size.width - 1.8 * f;
-  frame.y0 = (title.empty() ? 1.4 * f : 3.4 * f) + (legendRow ? 1.7 * f : 0.0);
+  frame.y0 = (title.empty() ? 1.4 * f : 3.4 * f) + 1.7 * f * legendRows;
   frame.y1 = y - 4.6 * f;
   return frame;
 }

@@ -30,12 +30,15 @@ class Scale {
   std::vector<Tick> ticks_;
 };
 
+/// Size of the letters (px) of a chart of that size.
+double chartFont(const ChartSize& size);
+
 /// White page with plot area, axes, titles, caption, legend and the research-use line.
 struct ChartFrame {
   double font = 0.0, x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;  ///< plot area, pixels, y0 at the top
 };
 ChartFrame beginChart(Painter& paint, const ChartSize& size, const std::string& title, const std::string& caption,
-                      bool legendRow);
+                      int legendRows);
 void drawAxisX(Painter& paint, const ChartFrame& frame, const Scale& scale, const std::string& title, bool grid);
 void drawAxisY(Painter& paint, const ChartFrame& frame, const Scale& scale, const std::string& title);
 void drawHorizontal(Painter& paint, const ChartFrame& frame, const Scale& y, const std::vector<ReferenceLine>& lines);

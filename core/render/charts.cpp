@@ -146,8 +146,21 @@ void paintChart(Painter& paint, const XyChart& chart, const ChartSize& size) {
   std::string caption = chart.caption;
   if (leftOut > 0)
     caption += (caption.empty() ? "" : " ") + std::to_string(leftOut) + " point(s) cannot be shown on these axes.";
-  const ChartFrame frame = beginChart(paint, size, chart.title, caption, true);
-  const double f = frame.font;
+  // Where each entry of the legend goes: in rows as wide as the chart.
+  const double f = chartFont(size);
+  std::vector<std::string> entries;
+  if (chart.paretoFront) entries.emplace_back("Pareto front");
+  for (const XyChart::Series& series : chart.series) entries.push_back(series.name);
+  std::vector<Point> place;  // offset from the first entry
+  Point next(0.0, 0.0);
+  for (const std::string& entry : entries) {
+    const double width = 3.4 * f + textWidth(entry, f);
+    if (next.x() > 0.0 && next.x() + width > size.width - 6.0 * f) next = {0.0, next.y() + 1.5 * f};
+    place.push_back(next);
+    next.x() += width;
+  }
+  const int legendRows = 1 + static_cast<int>(std::lround(next.y() / (1.5 * f)));
+  const ChartFrame frame = beginChart(paint, size, chart.title, caption, legendRows);
   Scale x(chart.x, lowX, highX), y(chart.y, lowY, highY);
   x.setPixels(frame.x0, frame.x1);
   y.setPixels(frame.y1, frame.y0);
@@ -155,8 +168,7 @@ void paintChart(Painter& paint, const XyChart& chart, const ChartSize& size) {
   drawAxisX(paint, frame, x, chart.x.title, true);
   drawHorizontal(paint, frame, y, chart.lines);
 
-  double legend = frame.x0;
-  const double legendY = frame.y0 - 0.8 * f;
+  const Point firstEntry(frame.x0, frame.y0 - 0.8 * f - next.y());
   if (chart.paretoFront) {
     const std::vector<std::size_t> front = paretoFront(allX, allY);
     std::vector<Point> steps;
@@ -167,9 +179,8 @@ void paintChart(Painter& paint, const XyChart& chart, const ChartSize& size) {
     const Stroke stair{.colour = {120, 126, 134}, .width = f / 8.0, .dashed = true};
     paint.polyline(steps, stair);
     for (const std::size_t n : front) paint.disc({x(allX[n]), y(allY[n])}, 0.62 * f, {255, 205, 70});
-    paint.disc({legend + 0.6 * f, legendY - 0.35 * f}, 0.55 * f, {255, 205, 70});
-    paint.text({legend + 1.5 * f, legendY}, "Pareto front", {.size_px = f, .colour = ink});
-    legend += 3.0 * f + textWidth("Pareto front", f);
+    paint.disc(firstEntry + Point(0.6 * f, -0.35 * f), 0.55 * f, {255, 205, 70});
+    paint.text(firstEntry + Point(1.5 * f, 0.0), entries.front(), {.size_px = f, .colour = ink});
   }
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
     const XyChart::Series& series = chart.series[s];
@@ -194,10 +205,10 @@ void paintChart(Painter& paint, const XyChart& chart, const ChartSize& size) {
       if (usable(series.x[n], series.y[n])) points.emplace_back(x(series.x[n]), y(series.y[n]));
     if (series.joined) paint.polyline(points, pen);
     if (series.markers) std::for_each(points.begin(), points.end(), marker);
-    if (series.joined) paint.line({legend, legendY - 0.35 * f}, {legend + 1.6 * f, legendY - 0.35 * f}, pen);
-    if (series.markers) marker({legend + 0.8 * f, legendY - 0.35 * f});
-    paint.text({legend + 2.0 * f, legendY}, series.name, {.size_px = f, .colour = ink});
-    legend += 3.4 * f + textWidth(series.name, f);
+    const Point entry = firstEntry + place[s + (chart.paretoFront ? 1 : 0)];
+    if (series.joined) paint.line(entry + Point(0.0, -0.35 * f), entry + Point(1.6 * f, -0.35 * f), pen);
+    if (series.markers) marker(entry + Point(0.8 * f, -0.35 * f));
+    paint.text(entry + Point(2.0 * f, 0.0), series.name, {.size_px = f, .colour = ink});
   }
 }
 

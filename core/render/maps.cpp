@@ -230,6 +230,7 @@ Picture differencePicture(const RetractionScene& scene, const MapOptions& option
   std::snprintf(text, sizeof text, ". Largest difference in this slice: %.1f mm.", largest);
   frame.notes = {sliceNote(k, grid) + text};
   frame.caption = scene.caption.empty() ? options.caption : scene.caption;
+  frame.mark = scene.mark;
   frame.colourBar =
       ColourBar{.map = map, .low = options.low, .high = top, .title = "|u MRE − u atlas| (mm)", .mark = limit};
   frame.colourBar->markColour = isolineColour;

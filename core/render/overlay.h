@@ -36,6 +36,7 @@ struct RetractionScene {
   double retractorLength_mm = 80.0;
   double clinicallySignificant_mm = 5.0;
   std::string caption;  ///< method line under the picture; holds no patient text
+  std::string mark;     ///< a reservation in words ("outside linear theory: ..."), shown in orange; may be empty
   bool valid = true;    ///< false: a "not converged / outside validity" mark is drawn across
 };
 

@@ -12,7 +12,7 @@
 #include "render/colour_map.h"
 #include "render/font.h"
 #include "render/sampling.h"
-#include "render/scene3d_parts.h"
+#include "render/detail/scene3d_parts.h"
 #include "render/slice_frame.h"
 
 namespace glisson::render {
@@ -174,6 +174,12 @@ class Stage {
       below += lineHeight;
       add(screenText(x, below, *line, colours::faint, font_px_, false));
     }
+    if (scene.mark.empty()) return;
+    const std::vector<std::string> mark = wrapText(scene.mark, font_px_, width_ - 2.0 * font_px_);
+    for (auto line = mark.rbegin(); line != mark.rend(); ++line) {
+      below += lineHeight;
+      add(screenText(x, below, *line, colours::warning, font_px_, false));
+    }
   }
 
   /// Drawn whether decorated or not: an invalid run must not look like a valid one.
@@ -193,11 +199,11 @@ class Stage {
       halfWidth = std::max(halfWidth, std::abs(d.dot(right)));
       halfHeight = std::max(halfHeight, std::abs(d.dot(up)));
     }
-    const double margin = decorated ? 1.26 : 1.04;
+    const double margin = decorated ? 1.5 : 1.04;
     const double scale = margin * std::max(halfHeight, halfWidth * height_ / width_);
     const double distance = 4.0 * box.diagonal().norm();
     const double aside = decorated ? 0.09 * scale : 0.0;  // room for the legend on the left
-    const Eigen::Vector3d focus = centre - (decorated ? 0.03 * scale : 0.0) * up - aside * right;
+    const Eigen::Vector3d focus = centre - (decorated ? 0.13 * scale : 0.0) * up - aside * right;
     const Eigen::Vector3d eye = focus - distance * view_.fromEye;
     camera->ParallelProjectionOn();
     camera->SetFocalPoint(focus.data());

@@ -1,4 +1,4 @@
-#include "render/scene3d_parts.h"
+#include "render/detail/scene3d_parts.h"
 
 #include <vtkActor2D.h>
 #include <vtkBillboardTextActor3D.h>

@@ -147,11 +147,13 @@ Picture frameSlice(const Picture& image, const SliceFrame& frame) {
     for (std::string& line : wrapText(note, font, width - left - gap)) notes.push_back(std::move(line));
   for (const std::string& line : notes) noteWidth = std::max(noteWidth, textWidth(line, font));
   const std::vector<std::string> caption = wrapText(frame.caption, font, width - left - gap);
+  const std::vector<std::string> mark =
+      frame.mark.empty() ? std::vector<std::string>{} : wrapText(frame.mark, font, width - left - gap);
 
   const double lineHeight = 1.5 * font;
   const double legendRows = frame.legend.empty() ? 0.0 : 1.9 * font;
   const double bottom = (frame.gridTicks_mm ? 1.6 * font : 0.5 * font) + legendRows +
-                        lineHeight * static_cast<double>(notes.size() + caption.size() + 1) + 0.9 * font;
+                        lineHeight * static_cast<double>(notes.size() + mark.size() + caption.size() + 1) + 0.9 * font;
   const double body = std::max(image.height, frame.inset ? frame.inset->height : 0);
   const int height = static_cast<int>(std::ceil(top + body + bottom));
 
@@ -201,6 +203,10 @@ Picture frameSlice(const Picture& image, const SliceFrame& frame) {
   for (const std::string& note : notes) {
     y += lineHeight;
     paint.text({left, y}, note, {.size_px = font, .colour = light});
+  }
+  for (const std::string& line : mark) {
+    y += lineHeight;
+    paint.text({left, y}, line, {.size_px = font, .colour = warning});
   }
   for (const std::string& line : caption) {
     y += lineHeight;

@@ -31,6 +31,7 @@ struct SliceFrame {
   std::vector<LegendItem> legend{};
   std::vector<std::string> notes{};      ///< lines under the legend
   std::string caption{};                 ///< wrapped
+  std::string mark{};                    ///< a reservation, wrapped, in the colour of warnings; may be empty
   std::optional<double> gridTicks_mm{};  ///< labels (cm) for grid lines at this spacing
   std::optional<ColourBar> colourBar{};
   const Picture* inset = nullptr;  ///< drawn to the right; square

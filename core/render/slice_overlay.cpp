@@ -272,6 +272,7 @@ Picture sliceOverlay(const RetractionScene& scene, const SliceOverlayOptions& op
                                largestDifferenceInSlice_mm(scene, k), scene.clinicallySignificant_mm),
                  "Surroundings of the liver are not simulated: shown at rest, dimmed."};
   frame.caption = scene.caption;
+  frame.mark = scene.mark;
   frame.gridTicks_mm = options.grid_mm;
   Picture inset;
   if (options.zoomCentre_lps_mm) {

@@ -59,12 +59,19 @@ struct Contact {
   std::vector<const SurfaceFace*> faces;
   std::vector<double> share;  ///< adds up to 1
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
+  double area_mm2 = 0.0;      ///< as seen along the hoist
 };
 
 /// The bar lies against the surface at `at_mm`, across the hoist. It pushes on the connected faces under it that look
 /// against the hoist, uniformly per area seen along the hoist; with spread, the pressure falls off beyond the bar as a
 /// Gaussian. Throws BadInput ("no contact") where `at_mm` is further from such a face than the bar is thick.
 Contact findContact(const Body& body, const Retractor& retractor, const Eigen::Vector3d& at_mm);
+
+/// Where the bar is laid when no point is given. It starts at the inferior point of the right lobe (anatomy) and is moved up
+/// along z, one cell at a time and 80 mm at most, to the first height at which the faces under the bar, seen along the
+/// hoist, cover at least nine tenths of it; where none does, to the height with the largest cover. Its middle is the centroid of
+/// those faces. Throws BadInput where no face looks against the hoist.
+Eigen::Vector3d findHoistPoint(const Body& body, const Retractor& retractor, const Eigen::Vector3d& inferior_mm);
 
 /// The scene as a mechanics problem, with what is needed to read the answer back.
 struct MechanicsScene {

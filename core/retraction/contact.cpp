@@ -16,6 +16,45 @@ std::string inMm(const Eigen::Vector3d& p) {
 
 }  // namespace
 
+Eigen::Vector3d findHoistPoint(const Body& body, const Retractor& retractor, const Eigen::Vector3d& inferior_mm) {
+  const Eigen::Vector3d hoist = retractor.direction.normalized();
+  const Eigen::Vector3d axis = (retractor.axis - retractor.axis.dot(hoist) * hoist).normalized();
+  const Eigen::Vector3d across = hoist.cross(axis);
+  const Eigen::Vector3d up = across.z() < 0 ? Eigen::Vector3d(-across) : across;
+  const double step_mm = 1e3 * body.mesh().h_m().minCoeff();
+  constexpr double farthest_mm = 80.0;
+
+  double bestCover = 0.0;
+  Eigen::Vector3d best = inferior_mm;
+  for (double height = 0.0; height <= farthest_mm; height += step_mm) {
+    const Eigen::Vector3d at = inferior_mm + height * up;
+    double cover = 0.0;
+    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+    for (const SurfaceFace& f : body.surface()) {
+      const double seen = -f.normal.dot(hoist) * 1e6 * f.area_m2;
+      const Eigen::Vector3d d = f.centre_mm - at;
+      if (f.cavity || seen <= 0.0 || std::abs(d.dot(axis)) > retractor.length_mm / 2 ||
+          std::abs(d.dot(across)) > retractor.diameter_mm / 2)
+        continue;
+      cover += seen;
+      centroid += seen * f.centre_mm;
+    }
+    if (cover > bestCover) {
+      bestCover = cover;
+      best = centroid / cover;
+    }
+    if (cover >= 0.9 * retractor.length_mm * retractor.diameter_mm) break;
+  }
+  if (bestCover == 0.0) throw BadInput("no contact: no surface near the inferior right lobe looks against the hoist; give \"at\" as a point");
+  // The centroid of a curved patch may lie inside the body: the nearest face under the bar stands in.
+  const SurfaceFace* nearest = nullptr;
+  for (const SurfaceFace& f : body.surface())
+    if (!f.cavity && f.normal.dot(hoist) < -0.3 &&
+        (!nearest || (f.centre_mm - best).squaredNorm() < (nearest->centre_mm - best).squaredNorm()))
+      nearest = &f;
+  return nearest->centre_mm;
+}
+
 Contact findContact(const Body& body, const Retractor& retractor, const Eigen::Vector3d& at_mm) {
   const Eigen::Vector3d hoist = retractor.direction.normalized();
   const Eigen::Vector3d axis = (retractor.axis - retractor.axis.dot(hoist) * hoist).normalized();
@@ -23,17 +62,18 @@ Contact findContact(const Body& body, const Retractor& retractor, const Eigen::V
   // Beyond three standard deviations of the spread the pressure is below 1.2 % of its peak.
   const double reach = 3.0 * retractor.spread_mm;
 
+  // Faces under the bar, steps of the voxel staircase included; only those that look against the hoist bear the force.
+  auto bears = [&](const SurfaceFace& f) { return f.normal.dot(hoist) < -0.3; };
   std::vector<const SurfaceFace*> candidates;
   const SurfaceFace* first = nullptr;
   double nearest = 0.0;
   for (const SurfaceFace& f : body.surface()) {
-    if (f.cavity || f.normal.dot(hoist) > -0.3) continue;
-    const double distance = (f.centre_mm - at_mm).norm();
-    if (!first || distance < nearest) {
-      first = &f;
-      nearest = distance;
-    }
+    if (f.cavity || f.normal.dot(hoist) > 0.3) continue;
     const Eigen::Vector3d d = f.centre_mm - at_mm;
+    if (bears(f) && (!first || d.norm() < nearest)) {
+      first = &f;
+      nearest = d.norm();
+    }
     if (std::abs(d.dot(axis)) <= retractor.length_mm / 2 + reach &&
         std::abs(d.dot(across)) <= retractor.diameter_mm / 2 + reach)
       candidates.push_back(&f);
@@ -69,7 +109,7 @@ Contact findContact(const Body& body, const Retractor& retractor, const Eigen::V
   Contact contact;
   double total = 0.0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (!taken[i]) continue;
+    if (!taken[i] || !bears(*candidates[i])) continue;
     const SurfaceFace& f = *candidates[i];
     const Eigen::Vector3d d = f.centre_mm - at_mm;
     const double beyondAlong = std::max(0.0, std::abs(d.dot(axis)) - retractor.length_mm / 2);
@@ -82,6 +122,7 @@ Contact findContact(const Body& body, const Retractor& retractor, const Eigen::V
     contact.faces.push_back(&f);
     contact.share.push_back(share);
     contact.centre_mm += share * f.centre_mm;
+    contact.area_mm2 += -1e6 * f.area_m2 * f.normal.dot(hoist);
     total += share;
   }
   for (double& s : contact.share) s /= total;

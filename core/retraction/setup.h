@@ -42,7 +42,7 @@ struct Pressure { Region region; double kPa; };  ///< positive pushes against th
 struct Retractor {
   double diameter_mm = 10.0;
   double length_mm = 80.0;
-  double spread_mm = 0.0;                   ///< standard deviation of the contact pressure beyond the bar; 0 = bare bar
+  double spread_mm = 10.0;                  ///< tissue wraps round the bar: standard deviation of the pressure beyond it; 0 = bare bar
   std::optional<Eigen::Vector3d> at_mm;     ///< empty: inferior right lobe, found from geometry
   std::optional<double> force_N;            ///< empty: the liver's weight
   Eigen::Vector3d direction{0, -1, 0};      ///< of the hoist, LPS; "transverse" = towards anterior, in the transverse plane

@@ -115,6 +115,7 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
 
   if (scene.contact) {
     r.retractorPoint_mm = scene.contact->centre_mm;
+    r.contactArea_mm2 = scene.contact->area_mm2;
     for (const SurfaceFace* f : scene.contact->faces) r.contactNodes.insert(r.contactNodes.end(), f->nodes.begin(), f->nodes.end());
     std::sort(r.contactNodes.begin(), r.contactNodes.end());
     r.contactNodes.erase(std::unique(r.contactNodes.begin(), r.contactNodes.end()), r.contactNodes.end());

@@ -46,6 +46,7 @@ struct Result {
   std::vector<std::string> validity;  ///< warnings in words, most serious first
   bool drawable = true;               ///< false: not converged, inverted cells, displacement larger than the body
   std::optional<Eigen::Vector3d> retractorPoint_mm;      ///< centre of the contact
+  double contactArea_mm2 = 0.0;                          ///< that bears on the liver, seen along the hoist
   std::vector<int> contactNodes;
 };
 

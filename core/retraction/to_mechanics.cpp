@@ -81,7 +81,7 @@ struct LoadBuilder {
   }
   mechanics::NodalField operator()(const Retractor& load) const {
     if (contact) throw BadInput("the scene has two retractors; keep one");
-    const Eigen::Vector3d at_mm = load.at_mm ? *load.at_mm : anatomy::inferiorRightLobePoint(bodyMask(model));
+    const Eigen::Vector3d at_mm = load.at_mm ? *load.at_mm : findHoistPoint(body, load, anatomy::inferiorRightLobePoint(bodyMask(model)));
     contact = findContact(body, load, at_mm);
     const double force_N = load.force_N ? *load.force_N : model.mass_kg * defaults::gravity_m_s2;
     const Eigen::Vector3d local_N = body.vectorToLocal(force_N * load.direction.normalized());
