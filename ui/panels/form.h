@@ -32,6 +32,7 @@ inline QDoubleSpinBox* quantity(const char* objectName, double low, double high,
   box->setDecimals(decimals);
   if (!unit.isEmpty()) box->setSuffix(QLatin1Char(' ') + unit);
   box->setToolTip(tip);
+  box->setButtonSymbols(QAbstractSpinBox::NoButtons);  // wheel and arrow keys step it
   box->setKeyboardTracking(false);
   return box;
 }

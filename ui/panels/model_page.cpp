@@ -57,7 +57,7 @@ QWidget* ModelPage::makeSide() {
   auto* material = new QFormLayout;
   stiffness_ = new QComboBox;
   stiffness_->setObjectName(QStringLiteral("stiffnessSource"));
-  stiffness_->addItems({tr("MR elastogram, voxel by voxel"), tr("Atlas throughout")});
+  stiffness_->addItems({tr("MR elastogram"), tr("Atlas")});
   material->addRow(tr("Stiffness"), stiffness_);
   atlas_ = quantity("atlasShear", 0.1, 50, 0.1, 2, tr("kPa (µ)"),
                     tr("Shear modulus of the atlas model; healthy donors: 2.1 kPa"));
@@ -80,6 +80,7 @@ QWidget* ModelPage::makeSide() {
   mesh->addRow(tr("Cell"), cell_);
   frames_ = new QSpinBox;
   frames_->setObjectName(QStringLiteral("frames"));
+  frames_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   frames_->setRange(4, 5000);
   frames_->setToolTip(tr("Number of mesh-free sites"));
   mesh->addRow(tr("Sites"), frames_);

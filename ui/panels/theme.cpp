@@ -47,10 +47,10 @@ QString styleSheet(const Colours& c) {
     QPushButton[primary="true"]:disabled { background: %raised; color: %faint; border-color: %raised; }
     QPushButton:checked { background: %accent; color: %accentText; border-color: %accent; }
     QPushButton:focus { border: 1px solid %accent; }
-    QSpinBox, QDoubleSpinBox, QComboBox, QLineEdit { background: %base; border: 1px solid %border; border-radius: 5px;
+    QSpinBox, QDoubleSpinBox, QLineEdit { background: %base; border: 1px solid %border; border-radius: 5px;
       padding: 3px 6px; min-height: 20px; selection-background-color: %accent; }
-    QSpinBox:focus, QDoubleSpinBox:focus, QComboBox:focus { border-color: %accent; }
-    QComboBox::drop-down { border: none; width: 18px; }
+    QSpinBox:focus, QDoubleSpinBox:focus { border-color: %accent; }
+    QTreeWidget::item { padding: 4px 5px; }
     QComboBox QAbstractItemView { background: %raised; border: 1px solid %border; selection-background-color: %accent; }
     QTableWidget, QTreeWidget, QListWidget, QPlainTextEdit, QTextBrowser { background: %base; border: 1px solid %border;
       border-radius: 6px; alternate-background-color: %window; }
