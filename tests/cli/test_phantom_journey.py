@@ -1,0 +1,94 @@
+"""A synthetic patient from DICOM to overlays with no display; and a patient called PHI^CANARY who must not be seen."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from support import cli, cli_json
+
+
+class Journey(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls._folder = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls._folder.name)
+        cli("phantom", "--cases", 1, "--seed", 5, "--output", cls.folder, "--quiet")
+        cls.patient = cls.folder / "patient-001"
+        cls.truth = json.loads((cls.patient / "truth.json").read_text())
+
+    @classmethod
+    def tearDownClass(cls):
+        cls._folder.cleanup()
+
+    def test_scan_finds_every_role_with_a_reason(self):
+        series = cli_json("scan", self.patient)["series"]
+        roles = {s["role"] for s in series}
+        self.assertLessEqual({"anatomical", "magnitude", "wave", "stiffness", "confidence"}, roles)
+        for s in series:
+            self.assertTrue(s["role_reason"])
+
+    def test_measure_recovers_the_truth(self):
+        r = cli_json("measure", "--mre", self.patient / "mre", "--roi", self.patient / "rtstruct.dcm")
+        error = abs(r["pooled"]["mean_kPa"] - self.truth["shear_kPa"])
+        noise_of_mean = self.truth["noise_kPa"] / r["pooled"]["n"] ** 0.5
+        # A hand-drawn outline takes in and leaves out voxels at the border: 0.5 % of the mean on top of the noise.
+        self.assertLess(error, 5 * noise_of_mean + 0.005 * self.truth["shear_kPa"])
+        self.assertLess(r["pooled"]["n"], r["pooled"]["n_before_mask"])
+
+    def test_run_from_dicom_to_overlays(self):
+        out = self.folder / "run"
+        r = cli_json("run", self.patient / "scene.json", "--output", out, env={"DISPLAY": "", "WAYLAND_DISPLAY": ""})
+        self.assertAlmostEqual(r["model"]["volume_mL"], self.truth["volume_mL"], delta=0.03 * self.truth["volume_mL"])
+        self.assertTrue(r["solver"]["converged"])
+        d = r["difference"]
+        self.assertGreater(d["max_mm"], d["mean_mm"])
+        self.assertGreater(d["vessels"]["landmarks"], 100)
+        self.assertAlmostEqual(r["load_N"][1], -r["model"]["mass_kg"] * 9.81, delta=1e-6)
+        for name in r["files"]:
+            self.assertTrue((out / name).exists(), name)
+
+    def test_same_seed_same_bytes(self):
+        cli("phantom", "--cases", 1, "--seed", 5, "--output", self.folder / "again", "--quiet")
+        for path in sorted(self.patient.rglob("*")):
+            if path.is_file():
+                twin = self.folder / "again/patient-001" / path.relative_to(self.patient)
+                self.assertEqual(path.read_bytes(), twin.read_bytes(), path.name)
+
+    def test_no_word_of_the_patient_comes_out(self):
+        try:
+            subprocess.run([sys.executable, "-c", "import pydicom"], check=True, capture_output=True)
+            python = sys.executable
+        except subprocess.CalledProcessError:
+            python = "/usr/bin/python3"
+        canary = self.folder / "canary"
+        script = (
+            "import pathlib, pydicom, shutil, sys\n"
+            "src, dst = map(pathlib.Path, sys.argv[1:])\n"
+            "shutil.copytree(src, dst)\n"
+            "for p in dst.rglob('*.dcm'):\n"
+            "    d = pydicom.dcmread(p)\n"
+            "    d.PatientName = 'PHI^CANARY'; d.PatientID = 'PHI_CANARY_ID'; d.PatientBirthDate = '19010203'\n"
+            "    d.InstitutionName = 'CANARY HOSPITAL'; d.ReferringPhysicianName = 'CANARY^DOCTOR'\n"
+            "    d.save_as(p)\n")
+        done = subprocess.run([python, "-c", script, str(self.patient), str(canary)], capture_output=True, text=True)
+        if done.returncode != 0:
+            self.skipTest("pydicom is not installed: " + done.stderr.strip()[-80:])
+        out = self.folder / "canary-run"
+        said = []
+        for arguments in (("scan", canary), ("scan", canary, "--json"), ("run", canary / "scene.json", "--output", out),
+                          ("measure", "--mre", canary / "mre", "--roi", canary / "rtstruct.dcm")):
+            process = cli(*arguments)
+            said.append(process.stdout + process.stderr)
+        for text in said:
+            # The folder is called canary by this test; the patient's own words are in capitals.
+            self.assertNotIn("CANARY", text)
+            self.assertNotIn("19010203", text)
+        for path in out.rglob("*"):
+            if path.is_file():
+                self.assertNotIn(b"CANARY", path.read_bytes(), path.name)
+
+
+if __name__ == "__main__":
+    unittest.main()
