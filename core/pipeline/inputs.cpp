@@ -21,6 +21,8 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
   if (roi.contours && !roi.contours->frameOfReferenceUid.empty() && !mri.frameOfReferenceUid.empty() &&
       roi.contours->frameOfReferenceUid != mri.frameOfReferenceUid)
     in.warnings.push_back("the contours and the MRI have different frames of reference: check that they belong together");
+  const std::optional<std::string> completed = completeOutlines(roi, mri.volume.grid);
+  if (completed) in.warnings.push_back(*completed);
   in.liver = roi.contours ? roi::rasterise(*roi.contours, mri.volume.grid) : *roi.mask;
   if (needs.mre) {
     progress.report(0.5, "reading the elastogram");
@@ -32,7 +34,8 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
         mri.frameOfReferenceUid != mre.map.frameOfReferenceUid)
       in.warnings.push_back("the MRI and the elastogram have different frames of reference: check that the patient did not move");
     in.roiOnMre = mapRoi(roi, mri.volume.grid, mre.map);
-    append(in.warnings, in.roiOnMre->warnings);
+    for (const std::string& warning : in.roiOnMre->warnings)
+      if (warning != completed) in.warnings.push_back(warning);
     in.stiffness = std::move(mre.map);
   }
   in.contours = std::move(roi.contours);

@@ -8,6 +8,8 @@
 #include "elastography/roi_from_structures.h"
 #include "image/io.h"
 #include "roi/contour_io.h"
+#include "roi/interpolate.h"
+#include "roi/plane.h"
 
 namespace glisson::pipeline {
 namespace {
@@ -120,10 +122,42 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
   return out;
 }
 
+std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& mriGrid) {
+  if (!roi.contours) return std::nullopt;
+  *roi.contours = roi::interpolateBetween(*roi.contours, mriGrid);
+  // Outlines that a reader had interpolated before count like those interpolated just now.
+  int drawn = 0, interpolated = 0;
+  for (const std::vector<std::size_t>& members : roi::polygonsPerSlice(*roi.contours, mriGrid)) {
+    const auto holds = [&](roi::PolygonState state) {
+      return std::any_of(members.begin(), members.end(), [&](std::size_t p) {
+        const roi::Polygon& polygon = roi.contours->polygons[p];
+        return !polygon.exclude && polygon.state == state;
+      });
+    };
+    if (holds(roi::PolygonState::Accepted))
+      ++drawn;
+    else if (holds(roi::PolygonState::Interpolated))
+      ++interpolated;
+  }
+  const int empty = static_cast<int>(roi::emptySlicesBetween(*roi.contours, mriGrid).size());
+  if (interpolated + empty == 0) return std::nullopt;
+  std::string text = "outlines on " + std::to_string(drawn) + " of " + std::to_string(drawn + interpolated + empty) +
+                     " slices; " + std::to_string(interpolated) + " slices between them were interpolated by shape";
+  if (empty > 0)
+    text += "; " + std::to_string(empty) + " slices stay empty, because the outlines next to them do not overlap";
+  return text;
+}
+
 elastography::MappedRoi mapRoi(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
                                const elastography::StiffnessMap& map) {
-  if (roi.contours)
-    return elastography::mapRoi(*roi.contours, mriGrid, map.values_kPa.grid, map.frameOfReferenceUid);
+  if (roi.contours) {
+    LoadedRoi complete{roi.contours, {}, {}};
+    const auto completed = mriGrid ? completeOutlines(complete, *mriGrid) : std::nullopt;
+    elastography::MappedRoi mapped =
+        elastography::mapRoi(*complete.contours, mriGrid, map.values_kPa.grid, map.frameOfReferenceUid);
+    if (completed) mapped.warnings.push_back(*completed);
+    return mapped;
+  }
   if (roi.mask) return elastography::mapRoi(*roi.mask, map.values_kPa.grid);
   throw BadArgument("mapRoi: the region of interest is empty");
 }

@@ -52,7 +52,12 @@ struct LoadedRoi {
 /// name: structure to take; empty = found by its name. label: of a label map, 0 = any.
 LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, int label, const Progress& progress = {});
 
-/// The region of interest on the grid of the elastogram. mriGrid: of the image that polygons were drawn on, where known.
+/// Fills empty slices between outlined ones by shape, where the region came as polygons (roi/interpolate.h). Returns what
+/// to tell the user, empty where every slice between the first and the last outlined one holds an outline that was drawn.
+std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& mriGrid);
+
+/// The region of interest on the grid of the elastogram. mriGrid: of the image that polygons were drawn on, where known:
+/// then outlines are completed first, so that an MRE slice on an undrawn MRI slice gets the interpolated region.
 elastography::MappedRoi mapRoi(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
                                const elastography::StiffnessMap& map);
 

@@ -1,4 +1,5 @@
-#include <array>
+#include "roi/trace.h"
+
 #include <map>
 
 #include "base/error.h"
@@ -10,7 +11,7 @@
 namespace glisson::roi {
 namespace {
 
-using Point = std::array<int, 2>;  // doubled column and row index, so that mid-points are integers
+using Point = HalfPoint;
 
 class SliceTracer {
  public:
@@ -28,7 +29,7 @@ class SliceTracer {
         next_.erase(step);
         ring.push_back(to);
       }
-      result.push_back(withoutStraightRuns(ring));
+      result.push_back(std::move(ring));
     }
     return result;
   }
@@ -55,28 +56,33 @@ class SliceTracer {
 
   static Point middle(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1]}; }
 
-  static std::vector<Point> withoutStraightRuns(const std::vector<Point>& ring) {
-    std::vector<Point> kept;
-    const std::size_t n = ring.size();
-    for (std::size_t v = 0; v < n; ++v) {
-      const Point &a = ring[(v + n - 1) % n], &b = ring[v], &c = ring[(v + 1) % n];
-      if ((b[0] - a[0]) * (c[1] - b[1]) != (b[1] - a[1]) * (c[0] - b[0])) kept.push_back(b);
-    }
-    return kept;
-  }
-
   const image::Mask& mask_;
   int k_;
   std::map<Point, Point> next_;
 };
 
+std::vector<Point> withoutStraightRuns(const std::vector<Point>& ring) {
+  std::vector<Point> kept;
+  const std::size_t n = ring.size();
+  for (std::size_t v = 0; v < n; ++v) {
+    const Point &a = ring[(v + n - 1) % n], &b = ring[v], &c = ring[(v + 1) % n];
+    if ((b[0] - a[0]) * (c[1] - b[1]) != (b[1] - a[1]) * (c[0] - b[0])) kept.push_back(b);
+  }
+  return kept;
+}
+
 }  // namespace
+
+std::vector<std::vector<HalfPoint>> ringsOf(const image::Mask& mask, int k) {
+  return SliceTracer(mask, k).rings();
+}
 
 ContourStack contoursOf(const image::Mask& mask) {
   if (image::count(mask) == 0) throw BadInput("the mask is empty (no voxel inside): there is no outline to trace");
   ContourStack result;
   for (int k = 0; k < mask.grid.size.z(); ++k) {
-    for (const std::vector<Point>& ring : SliceTracer(mask, k).rings()) {
+    for (const std::vector<Point>& all : ringsOf(mask, k)) {
+      const std::vector<Point> ring = withoutStraightRuns(all);
       Polygon polygon;
       polygon.points_lps_mm.resize(3, static_cast<Eigen::Index>(ring.size()));
       for (std::size_t v = 0; v < ring.size(); ++v)
