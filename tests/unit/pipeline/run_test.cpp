@@ -51,7 +51,9 @@ TEST_F(LetterRun, MapEqualToTheAtlasGivesExactlyNoDifference) {
   EXPECT_EQ(r.difference->mean_mm, 0.0);
   EXPECT_GT(r.primary.max_displacement_mm, 0.01);
   for (const PlanStep& s : r.plan)
-    if (s.step == "atlas-solve") EXPECT_FALSE(s.needed) << s.why;
+    if (s.step == "atlas-solve") {
+      EXPECT_FALSE(s.needed) << s.why;
+    }
 }
 
 TEST_F(LetterRun, StifferLiverMovesLess) {
