@@ -1,0 +1,36 @@
+#pragma once
+
+#include "base/progress.h"
+#include "mechanics/tet_mesh.h"
+
+namespace glisson::mechanics {
+
+/// K u = f on any tetrahedral mesh. Supports and loads belong to the nodes of the mesh.
+struct TetProblem {
+  TetMesh mesh;
+  double poisson = 0.45;
+  Supports supports;
+  NodalField f_N;  ///< 3 × nodes
+};
+
+/// Static linear solve. SolverOptions::kind: Factorised (up to StaticSolver::factorisedLimit degrees of freedom), Cg
+/// (block-Jacobi, or none where the preconditioner is None), Auto takes the first as far as it goes. element plays no
+/// role. Solution as StaticSolver gives it, on the mesh's nodes. Throws BadInput: Multigrid (it needs voxels), a
+/// modulus or Poisson's ratio out of range, a flat or inverted tetrahedron, nodes that no tetrahedron has,
+/// contradicting fixations, a piece of the mesh that may move as a rigid body, a load that is not finite; BadArgument
+/// on wrong sizes.
+Solution solveTets(const TetProblem& problem, const SolverOptions& options = {}, const Progress& progress = {});
+
+enum class TetOrder { Linear, Quadratic };
+
+/// A voxel problem on tetrahedra. Nodes of the voxel mesh are the corners. In T10 a middle node is held along an axis
+/// where all corners of an outer face, or of a tetrahedron, that it belongs to are; forces and springs stay at the
+/// corners.
+TetProblem onTetrahedra(const Problem& problem, TetOrder order, TetPattern pattern = TetPattern::Mirrored);
+
+/// Solves it and gives the answer on the voxel mesh's nodes (reactions of middle nodes go to the ends of their edge,
+/// half each). tets: onTetrahedra(problem), its loads perhaps replaced. Throws BadInput as StaticSolver does.
+Solution solveTets(const Problem& problem, const TetProblem& tets, const SolverOptions& options,
+                   const Progress& progress = {});
+
+}  // namespace glisson::mechanics
