@@ -21,7 +21,11 @@ std::string summary(const pipeline::RunResult& r) {
     << "load        (" << p.load_N.transpose() << ") N, reaction (" << p.reaction_N.transpose() << ") N\n"
     << "strain      max " << p.max_strain << ", 95 % below " << p.p95_strain << "; largest rotation "
     << p.max_rotation_deg << " deg\n";
-  if (p.linearTrusted) t << "validity    linear theory can be trusted here\n";
+  if (p.linearTrusted)
+    t << "validity    "
+      << (p.kinematics == retraction::Kinematics::Linear ? "linear theory can be trusted here"
+                                                         : "converged, and no cell is turned inside out")
+      << "\n";
   for (const std::string& v : p.validity) t << "validity    " << v << "\n";
   if (r.difference)
     t << "difference  mean " << r.difference->mean_mm << " mm, 95 % below " << r.difference->p95_mm << " mm, max "

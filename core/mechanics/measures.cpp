@@ -41,6 +41,15 @@ double rotationAngle_deg(const Eigen::Matrix3d& F) {
   return std::atan2(0.5 * axis.norm(), 0.5 * (R.trace() - 1)) * 180 / std::numbers::pi;
 }
 
+/// √(FᵀF) − I for F = I + H, without cancellation for small H.
+Eigen::Matrix3d biot(const Eigen::Matrix3d& H) {
+  const Eigen::Matrix3d twiceGreen = H + H.transpose() + H.transpose() * H;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(twiceGreen);
+  const Eigen::Array3d e = eigen.eigenvalues().array().max(-1.0);
+  const Eigen::Vector3d stretch = e / (1 + (1 + e).sqrt());
+  return eigen.eigenvectors() * stretch.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
 double quantile(std::vector<double>& values, double q) {
   const auto place = static_cast<std::ptrdiff_t>(
       std::min(static_cast<double>(values.size() - 1), std::ceil(q * static_cast<double>(values.size())) - 1));
@@ -50,7 +59,7 @@ double quantile(std::vector<double>& values, double q) {
 
 }  // namespace
 
-CellMeasures measureCells(const VoxelMesh& mesh, const NodalField& u_m) {
+CellMeasures measureCells(const VoxelMesh& mesh, const NodalField& u_m, StrainMeasure measure) {
   checkField(mesh, u_m);
   CellMeasures m;
   const int count = mesh.cellCount();
@@ -70,7 +79,8 @@ CellMeasures measureCells(const VoxelMesh& mesh, const NodalField& u_m) {
       Eigen::Matrix<double, 3, 8> u;
       for (int a = 0; a < 8; ++a) u.col(a) = u_m.col(nodes[static_cast<std::size_t>(a)]);
       const Eigen::Matrix3d H = u * gradients[0];
-      const Eigen::Matrix3d strain = 0.5 * (H + H.transpose());
+      const Eigen::Matrix3d strain =
+          measure == StrainMeasure::Small ? Eigen::Matrix3d(0.5 * (H + H.transpose())) : biot(H);
       m.strain.col(e) << strain(0, 0), strain(1, 1), strain(2, 2), strain(0, 1), strain(1, 2), strain(2, 0);
       const Eigen::Vector3d principal =
           Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(strain, Eigen::EigenvaluesOnly).eigenvalues();
@@ -102,8 +112,8 @@ DeformationSummary summarise(const CellMeasures& cells, const NodalField& u_m) {
   return s;
 }
 
-DeformationSummary summarise(const VoxelMesh& mesh, const NodalField& u_m) {
-  return summarise(measureCells(mesh, u_m), u_m);
+DeformationSummary summarise(const VoxelMesh& mesh, const NodalField& u_m, StrainMeasure measure) {
+  return summarise(measureCells(mesh, u_m, measure), u_m);
 }
 
 Validity validity(const VoxelMesh& mesh, const DeformationSummary& summary) {

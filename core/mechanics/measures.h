@@ -10,18 +10,21 @@
 
 namespace glisson::mechanics {
 
+/// Small: symmetric part of the displacement gradient; a rotation by θ shows as cos θ − 1. Biot: U − I of F = R U, free
+/// of rotation, what large-deformation results are judged by; the same for small rotations.
+enum class StrainMeasure { Small, Biot };
+
 /// What a displacement does to each filled cell, at its centre.
 struct CellMeasures {
-  Eigen::Matrix<double, 6, Eigen::Dynamic>
-      strain;                       ///< small strain xx yy zz xy yz zx, tensor components (not engineering)
-  Eigen::VectorXd principalStrain;  ///< largest |eigenvalue| of the strain
-  Eigen::VectorXd rotation_deg;     ///< angle of R in the polar decomposition F = R U
+  Eigen::Matrix<double, 6, Eigen::Dynamic> strain;  ///< xx yy zz xy yz zx, tensor components (not engineering)
+  Eigen::VectorXd principalStrain;                  ///< largest |eigenvalue| of the strain
+  Eigen::VectorXd rotation_deg;                     ///< angle of R in the polar decomposition F = R U
   Eigen::VectorXd volumeRatio;  ///< det F; the smallest of the centre and the eight corners, so that folding is seen
 };
 
 /// u_m: 3 × nodeCount. The strain at the centre of a trilinear box is also its mean over the box. Throws BadArgument on
 /// a wrong size, BadInput where u is not finite.
-CellMeasures measureCells(const VoxelMesh& mesh, const NodalField& u_m);
+CellMeasures measureCells(const VoxelMesh& mesh, const NodalField& u_m, StrainMeasure measure = StrainMeasure::Small);
 
 struct DeformationSummary {
   double maxStrain = 0.0;  ///< largest |principal strain|, unitless
@@ -33,7 +36,8 @@ struct DeformationSummary {
   double maxDisplacement_m = 0.0;
   double meanDisplacement_m = 0.0;  ///< over nodes
 };
-DeformationSummary summarise(const VoxelMesh& mesh, const NodalField& u_m);
+DeformationSummary summarise(const VoxelMesh& mesh, const NodalField& u_m,
+                             StrainMeasure measure = StrainMeasure::Small);
 DeformationSummary summarise(const CellMeasures& cells, const NodalField& u_m);
 
 /// How far linear elasticity can be believed.

@@ -233,7 +233,10 @@ void Writer::report(const Scene& scene, const RunResult& r) {
   }
   page.table(rows);
   page.heading("Can it be trusted?");
-  if (r.primary.linearTrusted) page.paragraph("Strains and rotations are small enough for linear theory.");
+  if (r.primary.linearTrusted)
+    page.paragraph(r.primary.kinematics == retraction::Kinematics::Linear
+                       ? "Strains and rotations are small enough for linear theory."
+                       : "The large-deformation solve converged, and no cell is turned inside out.");
   page.list(r.primary.validity);
   page.table({{"Solver", r.primary.solver.kind + ", relative residual " + number(r.primary.solver.residual, 2)},
               {"Strain, largest / 95 % below", number(r.primary.max_strain, 3) + " / " + number(r.primary.p95_strain, 3)},

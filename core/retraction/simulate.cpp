@@ -8,7 +8,9 @@
 #include "mechanics/dynamics.h"
 #include "mechanics/measures.h"
 #include "mechanics/meshfree.h"
+#include "mechanics/newton_solve.h"
 #include "mechanics/static_solve.h"
+#include "mechanics/tet_solve.h"
 #include "retraction/body.h"
 
 namespace glisson::retraction {
@@ -34,7 +36,45 @@ mechanics::DynamicOptions dynamicOptions(const AnalysisSpec& a) {
   return d;
 }
 
-Answer solve(const mechanics::Problem& problem, const Setup& setup, const Progress& progress) {
+/// Nothing that a scene asks for is passed over in silence.
+void requireOffered(const Setup& setup) {
+  const bool linear = setup.kinematics == Kinematics::Linear;
+  const std::string kinematics = setup.kinematics == Kinematics::Corotational ? "corotational" : "hyperelastic";
+  if (!linear && setup.model.kind != ModelKind::FemHex)
+    throw BadInput("kinematics \"" + kinematics + "\" is offered for the model \"fem-hex\" only; this scene asks for " +
+                   (setup.model.kind == ModelKind::FemTet ? "\"fem-tet\"" : "\"meshfree\"") +
+                   ": change the model, or use linear kinematics");
+  if (!linear && setup.analysis.dynamic)
+    throw BadInput("kinematics \"" + kinematics +
+                   "\" is offered for the static analysis only: make the analysis static, or the kinematics linear");
+  if (!linear && setup.condensed)
+    throw BadInput("a condensed response is linear, and kinematics \"" + kinematics +
+                   "\" is not: choose another solver, or linear kinematics");
+  if (setup.model.kind == ModelKind::FemTet && setup.analysis.dynamic)
+    throw BadInput("the model \"fem-tet\" is offered for the static analysis only: use \"fem-hex\" or \"meshfree\"");
+  if (setup.model.kind == ModelKind::FemTet && setup.condensed)
+    throw BadInput("condensed responses are made from voxels, not from \"fem-tet\": use \"fem-hex\"");
+}
+
+Answer solveOnTets(const Body& body, const MechanicsScene& scene, const Setup& setup, const Progress& progress) {
+  Answer a;
+  const auto order = setup.model.quadraticTets ? mechanics::TetOrder::Quadratic : mechanics::TetOrder::Linear;
+  mechanics::TetProblem tets = mechanics::onTetrahedra(scene.problem, order);
+  for (std::size_t i = 0; i < setup.loads.size(); ++i)
+    if (const auto* load = std::get_if<BodyForce>(&setup.loads[i])) {
+      tets.f_N.leftCols(body.mesh().nodeCount()) -= scene.loads_N[i];
+      tets.f_N += mechanics::bodyForce(tets.mesh, body.vectorToLocal(load->N_per_m3));
+    }
+  a.solution = mechanics::solveTets(scene.problem, tets, setup.solver, progress);
+  a.dofs = 3 * tets.mesh.nodeCount();
+  a.notes.push_back(std::to_string(tets.mesh.tetCount()) + (setup.model.quadraticTets ? " quadratic" : " linear") +
+                    " tetrahedra, six per voxel");
+  return a;
+}
+
+Answer solve(const Body& body, const MechanicsScene& scene, const Setup& setup, const Progress& progress) {
+  if (setup.model.kind == ModelKind::FemTet) return solveOnTets(body, scene, setup, progress);
+  const mechanics::Problem& problem = scene.problem;
   Answer a;
   mechanics::SolverOptions options = setup.solver;
   options.element = setup.model.element;
@@ -52,7 +92,15 @@ Answer solve(const mechanics::Problem& problem, const Setup& setup, const Progre
     }
     return a;
   }
-  if (setup.analysis.dynamic) {
+  if (setup.kinematics != Kinematics::Linear) {
+    a.solution = mechanics::solveLargeDeformation(problem,
+                                                  setup.kinematics == Kinematics::Corotational
+                                                      ? mechanics::LargeDeformationKind::Corotational
+                                                      : mechanics::LargeDeformationKind::Hyperelastic,
+                                                  options, progress);
+    if (setup.kinematics == Kinematics::Hyperelastic)
+      a.notes.push_back("hyperelastic kinematics use mean-dilatation hexahedra, whatever element the scene names");
+  } else if (setup.analysis.dynamic) {
     mechanics::DynamicSolution d = mechanics::solveDynamic(problem, dynamicOptions(setup.analysis), options, progress);
     a.steps = d.trajectory.steps;
     a.solution = std::move(d.solution);
@@ -85,7 +133,35 @@ std::vector<Eigen::Vector3d> interpolate(const Body& body, const mechanics::Noda
   return out;
 }
 
-Result readBack(const Model& model, const Body& body, const MechanicsScene& scene, Answer answer,
+/// The verdict and its reasons, in words.
+void judge(const Body& body, const mechanics::Solution& s, Result& r) {
+  const bool linear = r.kinematics == Kinematics::Linear;
+  const mechanics::DeformationSummary m = mechanics::summarise(
+      body.mesh(), s.u_m, linear ? mechanics::StrainMeasure::Small : mechanics::StrainMeasure::Biot);
+  r.max_displacement_mm = mToMm * m.maxDisplacement_m;
+  r.max_strain = m.maxStrain;
+  r.p95_strain = m.p95Strain;
+  r.p99_strain = m.p99Strain;
+  r.fraction_over_10pct = m.fractionAbove10;
+  r.max_rotation_deg = m.maxRotation_deg;
+  mechanics::DeformationSummary judged = m;
+  if (!linear) judged.maxRotation_deg = judged.p95Strain = judged.fractionAbove10 = 0;  // no limits to these
+  const mechanics::Validity validity = mechanics::validity(body.mesh(), judged);
+  r.linearTrusted = validity.linearTrusted && s.report.converged();
+  r.validity = validity.warnings;
+  r.drawable = s.report.converged() && !validity.invalid;
+  if (r.kinematics == Kinematics::Corotational && m.p95Strain >= 0.10) {
+    r.linearTrusted = false;
+    r.validity.push_back("outside corotational theory, whose strains are small: 5 % of the volume strains by more than " +
+                         std::to_string(std::lround(100 * m.p95Strain)) + " % (limit 10 %); use hyperelastic kinematics");
+  }
+  if (!s.report.converged())
+    r.validity.insert(r.validity.begin(), "the solve did not converge: " + mechanics::describe(s.report.status) +
+                                              (linear ? "" : " (" + s.report.why + ")") +
+                                              "; these numbers are not the answer");
+}
+
+Result readBack(const Model& model, const Body& body, const MechanicsScene& scene, const Setup& setup, Answer answer,
                 const std::vector<Eigen::Vector3d>& probes_mm) {
   Result r;
   const mechanics::Solution& s = answer.solution;
@@ -98,21 +174,8 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
   r.reaction_N = body.vectorToLps(s.reaction_N.rowwise().sum());
   r.u_mm = atCellCentres(body, model.youngs_kPa.grid, s.u_m);
 
-  const mechanics::DeformationSummary m = mechanics::summarise(body.mesh(), s.u_m);
-  const mechanics::Validity validity = mechanics::validity(body.mesh(), m);
-  r.max_displacement_mm = mToMm * m.maxDisplacement_m;
-  r.max_strain = m.maxStrain;
-  r.p95_strain = m.p95Strain;
-  r.p99_strain = m.p99Strain;
-  r.fraction_over_10pct = m.fractionAbove10;
-  r.max_rotation_deg = m.maxRotation_deg;
-  r.linearTrusted = validity.linearTrusted && s.report.converged();
-  r.validity = validity.warnings;
-  r.drawable = s.report.converged() && !validity.invalid;
-  if (!s.report.converged())
-    r.validity.insert(r.validity.begin(), "the solve did not converge: " + mechanics::describe(s.report.status) +
-                                              "; these numbers are not the answer");
-
+  r.kinematics = setup.kinematics;
+  judge(body, s, r);
   if (scene.contact) {
     r.retractorPoint_mm = scene.contact->centre_mm;
     r.contactArea_mm2 = scene.contact->area_mm2;
@@ -131,9 +194,10 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
 
 Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,
                 const Progress& progress) {
+  requireOffered(setup);
   const Body body(model);
   const MechanicsScene scene = toMechanics(body, model, setup);
-  return readBack(model, body, scene, solve(scene.problem, setup, progress), probes_mm);
+  return readBack(model, body, scene, setup, solve(body, scene, setup, progress), probes_mm);
 }
 
 Result scaled(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm, const Result& result,
@@ -147,7 +211,7 @@ Result scaled(const Model& model, const Setup& setup, const std::vector<Eigen::V
   answer.solution.report.why = "proportional to the other answer";
   answer.solution.reaction_N = mechanics::NodalField::Zero(3, result.nodal_u_m.cols());
   answer.dofs = result.dofs;
-  Result r = readBack(model, body, scene, std::move(answer), probes_mm);
+  Result r = readBack(model, body, scene, setup, std::move(answer), probes_mm);
   r.reaction_N = result.reaction_N;
   return r;
 }

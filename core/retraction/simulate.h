@@ -38,11 +38,16 @@ struct Result {
   Eigen::Vector3d load_N = Eigen::Vector3d::Zero();      ///< sum of applied forces, LPS
   Eigen::Vector3d reaction_N = Eigen::Vector3d::Zero();  ///< sum of support forces, LPS
   double energy_J = 0.0;
-  double max_strain = 0.0, p95_strain = 0.0, p99_strain = 0.0;   ///< largest principal strain, absolute
+  Kinematics kinematics = Kinematics::Linear;            ///< that were solved
+  /// Largest principal strain, absolute: small strain where the kinematics are linear, else Biot's (free of rotation).
+  double max_strain = 0.0, p95_strain = 0.0, p99_strain = 0.0;
   double fraction_over_10pct = 0.0;   ///< of the volume
   double max_rotation_deg = 0.0;
   double max_displacement_mm = 0.0;
-  bool linearTrusted = false;         ///< the verdict
+  /// The verdict on the kinematics used. Linear: strains and rotations are small enough for linear theory. Corotational:
+  /// converged, no inverted cell, and p95 strain below 10 % (its strains are small-strain). Hyperelastic: converged, no
+  /// inverted cell.
+  bool linearTrusted = false;
   std::vector<std::string> validity;  ///< warnings in words, most serious first
   bool drawable = true;               ///< false: not converged, inverted cells, displacement larger than the body
   std::optional<Eigen::Vector3d> retractorPoint_mm;      ///< centre of the contact
@@ -51,7 +56,10 @@ struct Result {
 };
 
 /// Builds the mechanics problem (the one crossing from mm and kPa to SI) and solves it.
-/// Throws BadInput (no support, no contact, unknown region), SolverFailed never: status is in the result.
+/// Corotational and hyperelastic kinematics: static, voxel hexahedra. Tetrahedra: static, linear; dofs are those of the
+/// tetrahedra, body forces are consistent with them, all other loads act at the voxel corners.
+/// Throws BadInput (no support, no contact, unknown region, a model that does not offer what is asked for), SolverFailed
+/// never: status is in the result.
 Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,
                 const Progress& progress = {});
 
