@@ -51,6 +51,8 @@ int main(int argc, char** argv) {
   addPlan(app, context);
   addRun(app, context);
   addValidate(app, context);
+  addStability(app, context);
+  addTradeoff(app, context);
 
   try {
     app.parse(argc, argv);

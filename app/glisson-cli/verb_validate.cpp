@@ -28,7 +28,7 @@ int validate(const study::BeamOptions& options, const Context& context) {
   std::string text = s.summary() + study::table(s.rows);
   j["files"] = Json::array();
   if (!context.output.empty()) {
-    render::XyChart chart = study::chart(s.rows, study::converged3d, "Cantilever: error against run time", s.summary());
+    render::XyChart chart = study::chart(s.rows, study::converged3d, "Cantilever: error against run time", s.caption());
     chart.lines.push_back({.value = s.allowed_mm, .label = "1 % of a 1.64 mm voxel", .colour = {200, 0, 160}});
     for (const auto& file : study::write(context.output, "validate-beam", s.rows, chart)) {
       j["files"].push_back(file.string());

@@ -43,5 +43,7 @@ void addMeasure(CLI::App& app, Context& context);
 void addPlan(CLI::App& app, Context& context);
 void addRun(CLI::App& app, Context& context);
 void addValidate(CLI::App& app, Context& context);
+void addStability(CLI::App& app, Context& context);
+void addTradeoff(CLI::App& app, Context& context);
 
 }  // namespace glisson::cli

@@ -59,7 +59,8 @@ struct BeamStudy {
   double gapEulerBernoulliAxis_mm = 0.0;  ///< largest along the axis
   double gapTimoshenkoTip_mm = 0.0;       ///< 3-D with the Poisson-free root − Timoshenko at the tip
   double allowed_mm = 0.0164;             ///< 1 % of a 1.64 mm voxel
-  std::string summary() const;            ///< the references and their gaps, in words
+  std::string summary() const;            ///< the references and their gaps, in lines
+  std::string caption() const;            ///< the same in a few sentences, for the chart
 };
 
 /// Runs the study: voxel elements and mesh-free frames, the published method (Voronoi kernel, conjugate gradients

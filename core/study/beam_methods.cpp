@@ -1,6 +1,6 @@
 #include "study/beam_methods.h"
 
-#include <limits>
+#include <algorithm>
 #include <memory>
 #include <sstream>
 
@@ -40,9 +40,14 @@ BeamAnswer voxels(const BeamOptions& options, HexElement element, const Eigen::V
   const Stopwatch build;
   mechanics::StaticSolver s(p.body, p.supports, solver, progress);
   a.build_s = build.seconds();
-  const Stopwatch watch;
+  // Hierarchy or factor are made in the first solve: a second one shows what the solve alone takes.
+  const Stopwatch both;
   const mechanics::Solution answer = s.solve(p.f_N, progress);
-  a.solve_s = watch.seconds();
+  const double first_s = both.seconds();
+  const Stopwatch again;
+  s.solve(p.f_N, progress);
+  a.solve_s = std::min(again.seconds(), first_s);
+  a.build_s += first_s - a.solve_s;
   a.dofs = s.voxels().dofs();
   a.axis_mm = axisDeflection_mm(s.mesh(), answer.u_m);
   a.converged = answer.report.converged();
@@ -119,8 +124,8 @@ std::vector<BeamMethod> beamMethods(const BeamOptions& options) {
   const int base = options.quick ? 8 : 12;
   std::vector<int> affine = {30, 60}, quadratic = {12, 24};            // 360 and 720 degrees of freedom
   if (!options.quick) affine.push_back(150), quadratic.push_back(60);  // 1800
-  for (const int n : affine) addFrames("Voronoi affine, CG 200 (published)", {Kernel::Voronoi, 1, n, true}, base);
-  for (const int n : affine) addFrames("Voronoi affine, factorised", {Kernel::Voronoi, 1, n, false}, base);
+  for (const int n : affine) addFrames("Voronoi, CG 200 (published)", {Kernel::Voronoi, 1, n, true}, base);
+  for (const int n : affine) addFrames("Voronoi, factorised", {Kernel::Voronoi, 1, n, false}, base);
   for (const int n : affine) addFrames("Wendland affine", {Kernel::Wendland, 1, n, false}, base);
   for (const int n : quadratic) addFrames("Wendland quadratic", {Kernel::Wendland, 2, n, false}, base);
   return methods;

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "base/progress.h"
+#include "retraction/simulate.h"
+
+namespace glisson::study {
+
+/// How far a result may be from that of infinitely small cells.
+struct DiscretisationError {
+  bool known = false;   ///< false: the body is too coarse to be halved; see note
+  double max_mm = 0.0;  ///< over the cells
+  double p95_mm = 0.0;  ///< 95 % of the cells are below
+  double mean_mm = 0.0;
+  double cell_mm = 0.0, coarse_mm = 0.0;  ///< largest cell edge of the two grids
+  std::string note;                       ///< in words, for reports
+};
+
+/// The same body in cells of twice the edge: a coarse cell is filled where at least half of its eight are, with the
+/// mean modulus of those that are. Throws BadInput where none is.
+retraction::Model coarsened(const retraction::Model& model);
+
+/// The same body, every cell split into eight.
+retraction::Model refined(const retraction::Model& model);
+
+/// The setup with what depends on resolution held: each retractor stays at the contact of `result` and keeps its force.
+retraction::Setup held(const retraction::Setup& setup, const retraction::Model& model,
+                       const retraction::Result& result);
+
+/// Estimate from two grids, cells and twice the cells: |u_h − u_2h|, which is the error of u_h where it falls with
+/// first order, as staircase surfaces and clamped edges make it, and up to three times the error where it falls faster.
+/// For a mesh-free result the distance from the voxel FEM on its own cells is added. Costs one solve with an eighth of
+/// the cells (mesh-free: one more with all of them). Throws Cancelled; whatever else goes wrong on the coarse grid is
+/// told in the note.
+DiscretisationError discretisationError(const retraction::Model& model, const retraction::Setup& setup,
+                                        const retraction::Result& result, const Progress& progress = {});
+
+}  // namespace glisson::study
