@@ -61,6 +61,7 @@ double relative(const NodalField& a, const NodalField& b) {
 }
 
 const Eigen::Vector3d push(3, 5, -20);
+constexpr double printed = 1e-6;  ///< CalculiX prints seven digits
 
 TEST(Calculix, HexahedraAgreeNodeByNode) {
   NEEDS_CCX;
@@ -69,13 +70,15 @@ TEST(Calculix, HexahedraAgreeNodeByNode) {
     const NodalField c3d8 = ccx::run(hexDeck(p, "C3D8", push));
     const NodalField c3d8i = ccx::run(hexDeck(p, "C3D8I", push));
     mechanics::SolverOptions options;
-    for (const auto& [name, element] : {std::pair{"H8", mechanics::HexElement::H8},
-                                        {"B-bar", mechanics::HexElement::BBar},
-                                        {"incompatible", mechanics::HexElement::Incompatible}}) {
-      options.element = element;
-      const NodalField ours = mechanics::solveStatic(p, options).u_m;
-      std::cout << "nu " << nu << " " << name << ": C3D8 " << relative(ours, c3d8) << ", C3D8I "
-                << relative(ours, c3d8i) << "\n";
+    options.element = mechanics::HexElement::H8;
+    EXPECT_LE(relative(mechanics::solveStatic(p, options).u_m, c3d8), printed) << nu;
+    options.element = mechanics::HexElement::Incompatible;
+    EXPECT_LE(relative(mechanics::solveStatic(p, options).u_m, c3d8i), printed) << nu;
+    // CalculiX has no B-bar; it must lie near the incompatible element where the plain one locks.
+    options.element = mechanics::HexElement::BBar;
+    EXPECT_LE(relative(mechanics::solveStatic(p, options).u_m, c3d8i), 0.08) << nu;
+    if (nu == 0.49) {
+      EXPECT_GT(relative(c3d8, c3d8i), 0.3) << "the plain element locks";
     }
   }
 }
@@ -96,8 +99,7 @@ TEST(Calculix, QuadraticTetrahedraAgreeNodeByNode) {
     deck.force_N_m3 = push;
     const NodalField theirs = ccx::run(deck);
     const NodalField ours = mechanics::solveTets(tets).u_m;
-    std::cout << "nu " << nu << " T10 " << relative(ours, theirs) << "\n";
-    EXPECT_LE(relative(ours, theirs), 2e-6);
+    EXPECT_LE(relative(ours, theirs), printed) << nu;
   }
 }
 
@@ -108,14 +110,16 @@ TEST(Calculix, LargeRotationsAgree) {
   ccx::Deck deck = hexDeck(p, "C3D8I", heavy);
   deck.largeDeformation = true;
   const NodalField theirs = ccx::run(deck);
-  for (const auto kind :
-       {mechanics::LargeDeformationKind::Corotational, mechanics::LargeDeformationKind::Hyperelastic}) {
-    const mechanics::Solution s = mechanics::solveLargeDeformation(p, kind);
-    std::cout << s.report.why << " " << relative(s.u_m, theirs) << " largest " << theirs.cwiseAbs().maxCoeff()
-              << " ours " << s.u_m.cwiseAbs().maxCoeff() << "\n";
-  }
-  const mechanics::Solution linear = mechanics::solveStatic(p);
-  std::cout << "linear " << relative(linear.u_m, theirs) << "\n";
+  ASSERT_GT(theirs.cwiseAbs().maxCoeff(), 0.025) << "the case should bend far";
+  // CalculiX's material is linear between Green's strain and the second Piola-Kirchhoff stress: the strains, a few
+  // percent, make the difference.
+  const mechanics::Solution turned = mechanics::solveLargeDeformation(p, mechanics::LargeDeformationKind::Corotational);
+  const mechanics::Solution stretched =
+      mechanics::solveLargeDeformation(p, mechanics::LargeDeformationKind::Hyperelastic);
+  ASSERT_TRUE(turned.report.converged() && stretched.report.converged());
+  EXPECT_LE(relative(turned.u_m, theirs), 0.005);
+  EXPECT_LE(relative(stretched.u_m, theirs), 0.015);
+  EXPECT_GT(relative(mechanics::solveStatic(p).u_m, theirs), 0.1) << "linear theory is far away here";
 }
 
 }  // namespace
