@@ -23,6 +23,7 @@ struct Variant {
   std::string method;
   double factor = 1.0;
   std::function<void(retraction::Setup&)> change;
+  std::string also{};  ///< goes behind the resolution
 };
 
 std::vector<Variant> variants(bool quick, std::size_t cells) {
@@ -44,9 +45,9 @@ std::vector<Variant> variants(bool quick, std::size_t cells) {
                                 {"H8", HexElement::H8}})
     for (const double f : factors) all.push_back({name, f, element(e, 0)});
   for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-5}) {
-    std::ostringstream name;
-    name << "H8-incompatible, tolerance " << tolerance;
-    all.push_back({name.str(), 1, element(HexElement::Incompatible, tolerance)});
+    std::ostringstream also;
+    also << ", tolerance " << tolerance;
+    all.push_back({"H8-incompatible, looser", 1, element(HexElement::Incompatible, tolerance), also.str()});
   }
   const auto frames = [](mechanics::Kernel kernel, int order, int count, bool published) {
     return [=](retraction::Setup& s) {
@@ -187,7 +188,7 @@ TradeoffStudy studyTradeoff(const pipeline::Scene& asked, const TradeoffOptions&
       const double seconds = total.seconds();
       Row row;
       row.method = v.method;
-      row.resolution = cellsText(r.model);
+      row.resolution = cellsText(r.model) + v.also;
       if (one.setup.model.kind == ModelKind::Meshfree)
         row.resolution = std::to_string(r.primary.dofs / (one.setup.model.meshfree.order == 1 ? 12 : 30)) +
                          " frames on " + row.resolution;
