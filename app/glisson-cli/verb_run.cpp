@@ -27,6 +27,7 @@ std::string summary(const pipeline::RunResult& r) {
                                                          : "converged, and no cell is turned inside out")
       << "\n";
   for (const std::string& v : p.validity) t << "validity    " << v << "\n";
+  if (r.discretisation) t << "error       " << r.discretisation->note << "\n";
   if (r.difference)
     t << "difference  mean " << r.difference->mean_mm << " mm, 95 % below " << r.difference->p95_mm << " mm, max "
       << r.difference->max_mm << " mm, at the retractor " << r.difference->at_retractor_mm << " mm"

@@ -243,6 +243,7 @@ void Writer::report(const Scene& scene, const RunResult& r) {
               {"Largest rotation", number(r.primary.max_rotation_deg, 3) + " degrees"},
               {"Load", inWords(r.primary.load_N) + " N"},
               {"Reaction", inWords(r.primary.reaction_N) + " N"}});
+  if (r.discretisation) page.paragraph(r.discretisation->note);
   page.list(r.warnings);
   page.heading("Pictures");
   for (const auto& f : r.files) {

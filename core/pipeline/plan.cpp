@@ -26,6 +26,7 @@ Needs::Needs(const Scene& s) {
   damping = timeSteps && (s.setup.analysis.rayleigh[0] > 0 || s.setup.analysis.rayleigh[1] > 0);
   newton = s.setup.kinematics != retraction::Kinematics::Linear;
   condensed = s.setup.condensed;
+  discretisation = !timeSteps && !newton && s.setup.model.kind != retraction::ModelKind::FemTet;
   compare = s.compare.has_value();
   cellField = pictures || compare || s.outputs.displacementField;
   for (const retraction::LoadSpec& load : s.setup.loads)
@@ -93,6 +94,10 @@ std::vector<PlanStep> plan(const Scene& s) {
   add("time-steps", n.timeSteps, n.timeSteps ? "implicit Euler to " + std::to_string(s.setup.analysis.end_s) + " s"
                                              : "only the steady state is asked for", solve_s * s.setup.analysis.end_s * 1e3 / s.setup.analysis.h_ms, solve_MB);
   add("large-deformation", n.newton, n.newton ? "the kinematics are not linear" : "the kinematics are linear", 10 * solve_s, 2 * solve_MB);
+  add("discretisation-error", n.discretisation,
+      n.discretisation ? "the answer says how far its cells let it be believed: a second solve on cells of twice the edge"
+                       : "estimated for static, linear scenes on voxels only",
+      n.meshfree ? 1.2 * solve_s : 0.15 * solve_s, solve_MB / 8);
   add("condensed-response", n.condensed, n.condensed ? "the solver is \"condensed\"" : "one load case: a response matrix would not pay");
   add("atlas-solve", n.compare,
       n.compare ? "the same load on the textbook stiffness; left out where the answer follows from the first"

@@ -106,6 +106,15 @@ std::string runRecord(const Scene& scene, const RunResult& r) {
                 {"volume_mL", r.model.volume_mL},
                 {"mass_kg", r.model.mass_kg}};
   j.update(resultToJson(r.primary, scene));
+  if (r.discretisation) {
+    const retraction::DiscretisationError& e = *r.discretisation;
+    j["discretisation_error"] = {{"known", e.known}, {"note", e.note}};
+    if (e.known) {
+      j["discretisation_error"]["mean_mm"] = e.mean_mm;
+      j["discretisation_error"]["p95_mm"] = e.p95_mm;
+      j["discretisation_error"]["max_mm"] = e.max_mm;
+    }
+  }
   if (r.atlas) j["atlas"] = resultToJson(*r.atlas, scene);
   if (r.difference) {
     const comparison::Difference& d = *r.difference;

@@ -121,6 +121,10 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     r.primary = retraction::simulate(r.model, scene.setup, scene.outputs.probes_mm, p);
   });
   r.warnings.insert(r.warnings.end(), r.primary.notes.begin(), r.primary.notes.end());
+  if (r.primary.solver.converged())
+    steps.run("discretisation-error", [&](const Progress& p) {
+      r.discretisation = retraction::discretisationError(r.model, scene.setup, r.primary, p);
+    });
   if (scene.compare) {
     double factor = 1.0;
     if (detail::sameStiffness(r.model, atlasModel)) {

@@ -12,6 +12,7 @@
 #include "pipeline/plan.h"
 #include "pipeline/scene.h"
 #include "render/overlay.h"
+#include "retraction/discretisation.h"
 #include "retraction/simulate.h"
 
 namespace glisson::pipeline {
@@ -27,6 +28,7 @@ struct RunResult {
   retraction::Model model;
   retraction::Result primary;                               ///< with the scene's own material
   std::optional<retraction::Result> atlas;                  ///< where the scene compares
+  std::optional<retraction::DiscretisationError> discretisation;  ///< of primary
   std::optional<comparison::Difference> difference;
   std::vector<Eigen::Vector3d> landmarks_mm;                ///< vessel centrelines at rest, LPS
   std::optional<elastography::Measurement> stiffness;        ///< over the region of interest, where MRE is used

@@ -12,6 +12,7 @@
 #include "mechanics/static_solve.h"
 #include "mechanics/tet_solve.h"
 #include "retraction/body.h"
+#include "retraction/condensed_solve.h"
 
 namespace glisson::retraction {
 namespace {
@@ -52,8 +53,8 @@ void requireOffered(const Setup& setup) {
                    "\" is not: choose another solver, or linear kinematics");
   if (setup.model.kind == ModelKind::FemTet && setup.analysis.dynamic)
     throw BadInput("the model \"fem-tet\" is offered for the static analysis only: use \"fem-hex\" or \"meshfree\"");
-  if (setup.model.kind == ModelKind::FemTet && setup.condensed)
-    throw BadInput("condensed responses are made from voxels, not from \"fem-tet\": use \"fem-hex\"");
+  if (setup.model.kind != ModelKind::FemHex && setup.condensed)
+    throw BadInput("condensed responses are made from voxels: use the model \"fem-hex\"");
 }
 
 Answer solveOnTets(const Body& body, const MechanicsScene& scene, const Setup& setup, const Progress& progress) {
@@ -92,7 +93,11 @@ Answer solve(const Body& body, const MechanicsScene& scene, const Setup& setup, 
     }
     return a;
   }
-  if (setup.kinematics != Kinematics::Linear) {
+  if (setup.condensed) {
+    CondensedAnswer c = solveCondensed(problem, scene.loads_N, setup, progress);
+    a.solution = std::move(c.solution);
+    a.steps = c.steps;
+  } else if (setup.kinematics != Kinematics::Linear) {
     a.solution = mechanics::solveLargeDeformation(problem,
                                                   setup.kinematics == Kinematics::Corotational
                                                       ? mechanics::LargeDeformationKind::Corotational

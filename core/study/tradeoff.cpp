@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "pipeline/run.h"
-#include "study/discretisation.h"
+#include "retraction/discretisation.h"
 #include "study/timing.h"
 
 namespace glisson::study {

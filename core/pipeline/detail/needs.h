@@ -21,6 +21,7 @@ struct Needs {
   bool newton = false;       ///< non-linear kinematics
   bool condensed = false;
   bool compare = false;
+  bool discretisation = false;  ///< error in millimetres from a second grid
   bool strain = true;        ///< validity is printed with every result
   bool cellField = false;    ///< displacement at every cell
   bool pictures = false;

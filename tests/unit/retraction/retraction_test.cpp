@@ -201,6 +201,32 @@ TEST(Regions, FacesFollowThePatientNotTheGrid) {
   for (const SurfaceFace* f : body.faces(SurfaceRegion{"posterior"})) EXPECT_NEAR(f->normal.y(), 1.0, 1e-12);
 }
 
+TEST(Condensed, AnswersAsTheFullSolveStaticAndInTime) {
+  const Model m = box({8, 5, 5}, {5, 5, 5}, 6, 0.45);
+  retraction::Setup s;
+  s.supports.push_back(fixed(FaceRegion{"x-"}));
+  s.supports.push_back(spring("inferior", 0.05));
+  s.loads.push_back(BodyForce{{0, 0, -3000}});
+  s.loads.push_back(Traction{FaceRegion{"x+"}, {0.02, 0, 0.05}});
+  s.solver.tolerance = 1e-11;
+  const Result full = simulate(m, s, {{40, 12, 12}});
+  s.condensed = true;
+  const Result condensed = simulate(m, s, {{40, 12, 12}});
+  EXPECT_LT((full.nodal_u_m - condensed.nodal_u_m).cwiseAbs().maxCoeff(), 1e-9) << "1e-6 mm";
+  EXPECT_NEAR((condensed.load_N + condensed.reaction_N).norm(), 0.0, 1e-7 * condensed.load_N.norm());
+  EXPECT_NEAR(full.energy_J, condensed.energy_J, 1e-8 * full.energy_J);
+  s.analysis.dynamic = true;
+  s.analysis.h_ms = 5;
+  s.analysis.end_s = 20;
+  s.analysis.rayleigh = {5, 0.02};
+  s.analysis.stopWhenSteady = 1e-10;
+  const Result settled = simulate(m, s, {{40, 12, 12}});
+  EXPECT_GT(settled.steps, 10);
+  EXPECT_LT((full.nodal_u_m - settled.nodal_u_m).cwiseAbs().maxCoeff(), 1e-6 * full.nodal_u_m.cwiseAbs().maxCoeff());
+  s.model.kind = ModelKind::Meshfree;
+  EXPECT_THAT(messageOf([&] { simulate(m, s, {}); }), HasSubstr("fem-hex"));
+}
+
 TEST(Scaled, IsTheAnswerOfTheOtherStiffness) {
   const Model stiff = box({6, 4, 4}, {5, 5, 5}, 12, 0.45), soft = box({6, 4, 4}, {5, 5, 5}, 6, 0.45);
   retraction::Setup s;

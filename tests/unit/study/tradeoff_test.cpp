@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "pipeline/run.h"
-#include "study/discretisation.h"
+#include "retraction/discretisation.h"
 
 namespace glisson::study {
 namespace {
@@ -64,7 +64,7 @@ TEST(Discretisation, EstimateCoversTheTrueError) {
   // The truth: the same bar in cells of a quarter of the size.
   const pipeline::RunResult coarse = pipeline::run(bar("2"), {});
   const pipeline::RunResult fine = pipeline::run(bar("0.5"), {});
-  const DiscretisationError e = discretisationError(coarse.model, bar("2").setup, coarse.primary);
+  const retraction::DiscretisationError e = discretisationError(coarse.model, bar("2").setup, coarse.primary);
   ASSERT_TRUE(e.known) << e.note;
   EXPECT_EQ(e.cell_mm, 2.0);
   EXPECT_EQ(e.coarse_mm, 4.0);
@@ -87,7 +87,7 @@ TEST(Discretisation, FieldsThatBothGridsHoldExactlyHaveNone) {
   s.setup.loads = {retraction::Traction{retraction::FaceRegion{"x+"}, {0.01, 0, 0}}};
   s.setup.solver.tolerance = 1e-12;
   const pipeline::RunResult r = pipeline::run(s, {});
-  const DiscretisationError e = discretisationError(r.model, s.setup, r.primary);
+  const retraction::DiscretisationError e = discretisationError(r.model, s.setup, r.primary);
   ASSERT_TRUE(e.known) << e.note;
   EXPECT_LE(e.max_mm, 1e-7 * r.primary.max_displacement_mm);
 }
@@ -95,8 +95,8 @@ TEST(Discretisation, FieldsThatBothGridsHoldExactlyHaveNone) {
 TEST(Discretisation, FramesAreHeldAgainstTheirOwnVoxelsToo) {
   const pipeline::Scene s = bar("2", R"(, "model": {"kind":"meshfree","frames":10,"kernel":"voronoi","order":1})");
   const pipeline::RunResult frames = pipeline::run(s, {}), voxels = pipeline::run(bar("2"), {});
-  const DiscretisationError a = discretisationError(frames.model, s.setup, frames.primary);
-  const DiscretisationError b = discretisationError(voxels.model, bar("2").setup, voxels.primary);
+  const retraction::DiscretisationError a = discretisationError(frames.model, s.setup, frames.primary);
+  const retraction::DiscretisationError b = discretisationError(voxels.model, bar("2").setup, voxels.primary);
   ASSERT_TRUE(a.known && b.known) << a.note << b.note;
   EXPECT_GT(a.max_mm, 2.0 * b.max_mm);
 }
@@ -106,7 +106,7 @@ TEST(Discretisation, BodyThatCannotBeHalvedIsSaidSo) {
   s.setup.supports[0].region = retraction::BoxRegion{{-1, -1, -1}, {1, 13, 13}};
   const pipeline::RunResult r = pipeline::run(s, {});
   // One cell thick: no coarse cell would be half full.
-  const DiscretisationError e = discretisationError(r.model, s.setup, r.primary);
+  const retraction::DiscretisationError e = discretisationError(r.model, s.setup, r.primary);
   EXPECT_FALSE(e.known);
   EXPECT_NE(e.note.find("unknown"), std::string::npos);
 }

@@ -5,7 +5,7 @@
 #include "base/progress.h"
 #include "retraction/simulate.h"
 
-namespace glisson::study {
+namespace glisson::retraction {
 
 /// How far a result may be from that of infinitely small cells.
 struct DiscretisationError {
@@ -36,4 +36,4 @@ retraction::Setup held(const retraction::Setup& setup, const retraction::Model& 
 DiscretisationError discretisationError(const retraction::Model& model, const retraction::Setup& setup,
                                         const retraction::Result& result, const Progress& progress = {});
 
-}  // namespace glisson::study
+}  // namespace glisson::retraction

@@ -1,4 +1,4 @@
-#include "study/discretisation.h"
+#include "retraction/discretisation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace glisson::study {
+namespace glisson::retraction {
 namespace {
 
 /// Centres of the body's cells, mm (LPS).
@@ -123,4 +123,4 @@ DiscretisationError discretisationError(const retraction::Model& model, const re
   return e;
 }
 
-}  // namespace glisson::study
+}  // namespace glisson::retraction
