@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -92,6 +93,10 @@ struct SceneOptions3D {
 /// Fills a renderer (on screen or off) with the 3-D overlay: liver at rest (faint), vessels deformed by MRE (blue) and
 /// by atlas (red), retractor bar, millimetre grid, scale, legend, research-use line. Clears what was in it.
 void populate3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options = {});
+
+/// VTK draws the text of all its windows with one renderer that is not safe from several threads: hold this while a
+/// window with text is rendered. overlay3D holds it for as long as it draws.
+std::mutex& textDrawing();
 
 /// The same scene, drawn off screen. Throws RenderUnavailable where neither EGL nor a display can be had.
 Picture overlay3D(const RetractionScene& scene, const SceneOptions3D& options = {});

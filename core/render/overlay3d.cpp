@@ -2,8 +2,6 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
-#include <mutex>
-
 #include "base/error.h"
 #include "render/offscreen_window.h"
 #include "render/overlay.h"
@@ -29,12 +27,16 @@ Picture halved(const Picture& large) {
 
 }  // namespace
 
+std::mutex& textDrawing() {
+  static std::mutex oneAtATime;
+  return oneAtATime;
+}
+
 Picture overlay3D(const RetractionScene& scene, const SceneOptions3D& options) {
   if (options.width < 64 || options.height < 64 || options.width > 8000 || options.height > 8000)
     throw BadArgument("a 3-D picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) +
                       " pixels is outside 64..8000");
-  static std::mutex oneAtATime;  // VTK's text renderer is shared by the process
-  const std::scoped_lock lock(oneAtATime);
+  const std::scoped_lock lock(textDrawing());
   OffscreenWindow window(2 * options.width, 2 * options.height, renderBackend());
   vtkNew<vtkRenderer> renderer;
   window.window()->AddRenderer(renderer);

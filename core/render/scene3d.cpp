@@ -74,8 +74,9 @@ class Stage {
         view_(viewpointOf(options.view)),
         width_(options.width * pixelScale),
         height_(options.height * pixelScale),
-        font_px_(std::clamp(options.height / 46.0, 11.0, 60.0) * pixelScale),
-        line_px_(std::max(1.0, options.height / 1100.0) * pixelScale) {}
+        // In a narrow picture the width decides, so that legend and caption leave room for the scene.
+        font_px_(std::clamp(std::min(1.0 * options.height, 0.75 * options.width) / 46.0, 11.0, 60.0) * pixelScale),
+        line_px_(std::max(1.0, std::min(1.0 * options.height, 0.75 * options.width) / 1100.0) * pixelScale) {}
 
   void add(const vtkSmartPointer<vtkProp>& prop) { renderer_->AddViewProp(prop); }
 
@@ -199,10 +200,11 @@ class Stage {
       halfWidth = std::max(halfWidth, std::abs(d.dot(right)));
       halfHeight = std::max(halfHeight, std::abs(d.dot(up)));
     }
-    const double margin = decorated ? 1.5 : 1.04;
-    const double scale = margin * std::max(halfHeight, halfWidth * height_ / width_);
+    const bool narrow = width_ < height_;  // the legend stands above the scene, not beside it
+    const double margin = decorated ? 1.5 : 1.04, marginAside = decorated && narrow ? 1.3 : margin;
+    const double scale = std::max(margin * halfHeight, marginAside * halfWidth * height_ / width_);
     const double distance = 4.0 * box.diagonal().norm();
-    const double aside = decorated ? 0.09 * scale : 0.0;  // room for the legend on the left
+    const double aside = decorated && !narrow ? 0.09 * scale : 0.0;  // room for the legend on the left
     const Eigen::Vector3d focus = centre - (decorated ? 0.13 * scale : 0.0) * up - aside * right;
     const Eigen::Vector3d eye = focus - distance * view_.fromEye;
     camera->ParallelProjectionOn();

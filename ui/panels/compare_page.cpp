@@ -36,7 +36,8 @@ ComparePage::ComparePage(session::Session& session, QWidget* parent)
   slice_->setObjectName(QStringLiteral("overlaySlice"));
   slice_->setEnabled(false);
   sliceText_ = new QLabel;
-  sliceText_->setMinimumWidth(96);
+  sliceText_->setMinimumWidth(110);
+  sliceText_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   bar->addWidget(slice_, 1);
   bar->addWidget(sliceText_);
   column->addLayout(bar);
@@ -51,7 +52,10 @@ ComparePage::ComparePage(session::Session& session, QWidget* parent)
   row->setSpacing(0);
   row->addWidget(splitter, 1);
   row->addWidget(makeSide());
-  connect(slice_, &QSlider::valueChanged, this, &ComparePage::drawSlice);
+  connect(slice_, &QSlider::valueChanged, this, [this] {
+    chosen_ = true;
+    drawSlice();
+  });
   connect(overlay_, &views::PictureView::sliceWanted, this,
           [this](int step) { slice_->setValue(slice_->value() + step); });
   connect(&session_, &session::Session::runFinished, this, &ComparePage::showResult);
@@ -117,10 +121,9 @@ void ComparePage::showResult() {
     showNumbers();
     return;
   }
-  const int best = render::sliceOfLargestDifference(*picture);
   const QSignalBlocker quiet(slice_);
   slice_->setRange(0, picture->mri.grid.size.z() - 1);
-  slice_->setValue(best);
+  chosen_ = false;
   drawSlice();
   showNumbers();
 }
@@ -128,27 +131,44 @@ void ComparePage::showResult() {
 void ComparePage::drawSlice() {
   const auto picture = session_.picture();
   if (!picture) return;
-  sliceText_->setText(tr("slice %1 / %2").arg(slice_->value() + 1).arg(slice_->maximum() + 1));
+  if (chosen_) sliceText_->setText(tr("slice %1 / %2").arg(slice_->value() + 1).arg(slice_->maximum() + 1));
   if (painter_.busy()) {
     wanted_ = true;
     return;
   }
   render::SliceOverlayOptions options;
-  options.slice = slice_->value();
+  options.slice = chosen_ ? slice_->value() : -1;
   options.palette = palette_();
   options.margin_mm = 40.0;
-  auto drawn = std::make_shared<render::Picture>();
-  painter_.start([picture, options, drawn](const Progress&) { *drawn = render::sliceOverlay(*picture, options); },
-                 [this, drawn, shown = options.slice](std::exception_ptr failure) {
-                   if (failure)
-                     overlay_->setHint(session::reasonOf(failure));
-                   else
-                     overlay_->setPicture(*drawn);
-                   if (std::exchange(wanted_, false))
-                     drawSlice();
-                   else if (!failure)
-                     emit overlayShown(shown);
-                 });
+  struct Drawn {
+    render::Picture picture;
+    int slice = 0;
+  };
+  auto drawn = std::make_shared<Drawn>();
+  painter_.start(
+      [picture, options, drawn](const Progress&) mutable {
+        // The first picture is of the slice where MRE and atlas differ most.
+        if (options.slice < 0) options.slice = render::sliceOfLargestDifference(*picture);
+        drawn->slice = options.slice;
+        drawn->picture = render::sliceOverlay(*picture, options);
+      },
+      [this, picture, drawn](std::exception_ptr failure) {
+        const int shown = drawn->slice;
+        if (failure) {
+          overlay_->setHint(session::reasonOf(failure));
+        } else if (picture == session_.picture()) {
+          overlay_->setPicture(drawn->picture);
+          if (!std::exchange(chosen_, true)) {
+            const QSignalBlocker quiet(slice_);
+            slice_->setValue(shown);
+            sliceText_->setText(tr("slice %1 / %2").arg(shown + 1).arg(slice_->maximum() + 1));
+          }
+        }
+        if (std::exchange(wanted_, false))
+          drawSlice();
+        else if (!failure)
+          emit overlayShown(shown);
+      });
 }
 
 void ComparePage::showNumbers() {

@@ -40,6 +40,7 @@ class ComparePage : public QWidget {
   session::Session& session_;
   session::Worker painter_;  ///< draws slice overlays; only the latest wish counts
   bool wanted_ = false;
+  bool chosen_ = false;  ///< else the slice of the largest difference is to be found and shown
   views::PictureView* overlay_;
   views::SceneView* scene_;
   QSlider* slice_;

@@ -99,6 +99,11 @@ void MainWindow::makeMenus() {
   undoAction_ = add(edit, "undoAction", tr("&Undo"), QKeySequence::Undo, [this] { session_.undo(); });
   redoAction_ =
       add(edit, "redoAction", tr("&Redo"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z), [this] { session_.redo(); });
+  edit->addSeparator();
+  interpolateAction_ = add(edit, "interpolateAction", tr("&Interpolate between slices"), QKeySequence(Qt::Key_B),
+                           [this] { session_.interpolateOutlines(); });
+  acceptAllAction_ = add(edit, "acceptAllAction", tr("&Accept all interpolated outlines"),
+                         QKeySequence(Qt::SHIFT | Qt::Key_B), [this] { session_.acceptInterpolated(); });
   QMenu* work = menuBar()->addMenu(tr("&Run"));
   runAction_ =
       add(work, "runAction", tr("&Build, retract and compare"), QKeySequence(Qt::CTRL | Qt::Key_R), &MainWindow::run);
@@ -192,6 +197,10 @@ void MainWindow::updateStatus() {
   importAction_->setEnabled(open);
   saveAction_->setEnabled(open);
   runAction_->setEnabled(session_.acceptedCount() > 0 && !session_.busy());
+  const session::OutlineCoverage outlines = session_.coverage();
+  interpolateAction_->setEnabled(outlines.drawn.size() > 1 &&
+                                 outlines.empty.size() + outlines.interpolated.size() > 0 && !session_.busy());
+  acceptAllAction_->setEnabled(!outlines.interpolated.empty());
   setWindowModified(session_.modified());
 }
 

@@ -66,7 +66,7 @@ class MainWindow : public QMainWindow {
   QLabel* progressText_;
   QPushButton* cancel_;
   QAction *undoAction_ = nullptr, *redoAction_ = nullptr, *runAction_ = nullptr, *saveAction_ = nullptr,
-          *importAction_ = nullptr;
+          *importAction_ = nullptr, *interpolateAction_ = nullptr, *acceptAllAction_ = nullptr;
 };
 
 }  // namespace glisson::panels

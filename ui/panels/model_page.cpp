@@ -11,6 +11,10 @@
 
 namespace glisson::panels {
 
+namespace {
+constexpr double leastCell_mm = 1.0;
+}
+
 ModelPage::ModelPage(session::Session& session, QWidget* parent) : QWidget(parent), session_(session) {
   auto* centre = new QWidget;
   auto* layout = new QVBoxLayout(centre);
@@ -37,6 +41,11 @@ ModelPage::ModelPage(session::Session& session, QWidget* parent) : QWidget(paren
   connect(&session_, &session::Session::parametersChanged, this, [this] {
     show_();
     showPlan();
+  });
+  connect(&session_, &session::Session::loaded, this, [this] {
+    if (!session_.images().mri) return;
+    const Eigen::Vector3d& s = session_.images().mri->grid.spacing_mm;
+    cell_->setSpecialValueText(tr("automatic (%1 mm)").arg(2.0 * std::min(s.x(), s.y()), 0, 'f', 2));
   });
   connect(&session_, &session::Session::contoursChanged, this, [this] {
     if (isVisible()) showPlan();
@@ -75,8 +84,9 @@ QWidget* ModelPage::makeSide() {
   kind_->addItem(tr("Voxel FEM (hexahedra)"), static_cast<int>(retraction::ModelKind::FemHex));
   kind_->addItem(tr("Mesh-free (Voronoi sites)"), static_cast<int>(retraction::ModelKind::Meshfree));
   mesh->addRow(tr("Method"), kind_);
-  cell_ = quantity("cellSize", 1, 20, 0.5, 2, QStringLiteral("mm"),
-                   tr("Edge of a voxel cell: smaller is more exact and slower"));
+  cell_ = quantity("cellSize", 0, 20, 0.5, 2, QStringLiteral("mm"),
+                   tr("Edge of a voxel cell: smaller is more exact and slower. 0 = twice the pixel of the MRI"));
+  cell_->setSpecialValueText(tr("automatic"));
   mesh->addRow(tr("Cell"), cell_);
   frames_ = new QSpinBox;
   frames_->setObjectName(QStringLiteral("frames"));
@@ -108,7 +118,11 @@ void ModelPage::take() {
   session::Parameters p = session_.parameters();
   p.poisson = poisson_->value();
   p.density_kg_m3 = density_->value();
-  p.cell_mm = cell_->value();
+  // Below a millimetre there is nothing but "automatic".
+  p.cell_mm = cell_->value() >= leastCell_mm ? cell_->value()
+              : p.cell_mm >= leastCell_mm    ? 0.0
+              : cell_->value() > 0.0         ? leastCell_mm
+                                             : 0.0;
   p.atlasShear_kPa = atlas_->value();
   p.frames = frames_->value();
   p.model = static_cast<retraction::ModelKind>(kind_->currentData().toInt());

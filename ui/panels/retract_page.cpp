@@ -68,6 +68,9 @@ QWidget* RetractPage::makeSide() {
   retractor->addRow(tr("Diameter"), diameter_);
   length_ = quantity("retractorLength", 5, 300, 5, 0, QStringLiteral("mm"), tr("Length of the bar that bears"));
   retractor->addRow(tr("Length"), length_);
+  spread_ = quantity("retractorSpread", 0, 60, 1, 1, QStringLiteral("mm"),
+                     tr("Tissue wraps round the bar: how far its pressure reaches beyond it; 0 is a bare bar"));
+  retractor->addRow(tr("Wrap"), spread_);
   forceKind_ = new QComboBox;
   forceKind_->setObjectName(QStringLiteral("forceKind"));
   forceKind_->addItems({tr("The liver's weight"), tr("Given force")});
@@ -98,7 +101,7 @@ QWidget* RetractPage::makeSide() {
   run_->setProperty("primary", true);
   side->addWidget(run_);
   connect(run_, &QPushButton::clicked, this, &RetractPage::runWanted);
-  for (QDoubleSpinBox* box : {diameter_, length_, force_, abdomen_})
+  for (QDoubleSpinBox* box : {diameter_, length_, spread_, force_, abdomen_})
     connect(box, &QDoubleSpinBox::valueChanged, this, &RetractPage::take);
   connect(forceKind_, &QComboBox::currentIndexChanged, this, &RetractPage::take);
   return frame;
@@ -109,6 +112,7 @@ void RetractPage::take() {
   session::Parameters p = session_.parameters();
   p.retractorDiameter_mm = diameter_->value();
   p.retractorLength_mm = length_->value();
+  p.retractorSpread_mm = spread_->value();
   p.forceIsWeight = forceKind_->currentIndex() == 0;
   p.force_N = force_->value();
   p.abdomen_kPa_per_mm = abdomen_->value();
@@ -120,6 +124,7 @@ void RetractPage::showParameters() {
   const session::Parameters& p = session_.parameters();
   diameter_->setValue(p.retractorDiameter_mm);
   length_->setValue(p.retractorLength_mm);
+  spread_->setValue(p.retractorSpread_mm);
   forceKind_->setCurrentIndex(p.forceIsWeight ? 0 : 1);
   force_->setValue(p.force_N);
   force_->setEnabled(!p.forceIsWeight);

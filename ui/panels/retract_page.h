@@ -40,7 +40,7 @@ class RetractPage : public QWidget {
   QSlider* time_;
   QPushButton *play_, *run_;
   QLabel *fraction_, *numbers_, *validity_;
-  QDoubleSpinBox *diameter_, *length_, *force_, *abdomen_;
+  QDoubleSpinBox *diameter_, *length_, *spread_, *force_, *abdomen_;
   QComboBox* forceKind_;
   QTimer clock_;
   bool filling_ = false;

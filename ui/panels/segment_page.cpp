@@ -64,6 +64,7 @@ SegmentPage::SegmentPage(session::Session& session, QWidget* parent)
   connect(&session_, &session::Session::statisticsChanged, this, &SegmentPage::showStatistics);
   connect(&session_, &session::Session::contoursChanged, this, &SegmentPage::showOutlines);
   connect(&session_, &session::Session::toolChanged, this, &SegmentPage::showTool);
+  connect(&session_, &session::Session::statusChanged, this, &SegmentPage::showActions);
   connect(&session_, &session::Session::pointWanted, mri_, &views::SliceView::showPoint);
   showTool();
 }
@@ -141,6 +142,18 @@ QWidget* SegmentPage::makeSide() {
   side->addWidget(outlines_, 1);
   connect(outlines_, &QTreeWidget::itemClicked, this,
           [this](QTreeWidgetItem* item) { mri_->setSlice(item->data(0, Qt::UserRole).toInt()); });
+  coverage_ = labelled({}, "faint");
+  coverage_->setObjectName(QStringLiteral("outlineCoverage"));
+  side->addWidget(coverage_);
+  auto* fill = new QHBoxLayout;
+  interpolate_ = button("interpolateButton", tr("Interpolate"), QStringLiteral("interpolate"),
+                        tr("Interpolate between slices: fill empty slices between outlines by shape (B)"));
+  acceptAll_ = button("acceptAllButton", tr("Accept all"), QStringLiteral("accept"),
+                      tr("Accept all interpolated outlines (Shift+B)"));
+  for (QPushButton* b : {interpolate_, acceptAll_}) fill->addWidget(b, 1);
+  side->addLayout(fill);
+  connect(interpolate_, &QPushButton::clicked, &session_, &session::Session::interpolateOutlines);
+  connect(acceptAll_, &QPushButton::clicked, &session_, &session::Session::acceptInterpolated);
   import_ = button("importButton", tr("Import outlines…"), QStringLiteral("import"),
                    tr("RT Structure Set, contour file or mask (Ctrl+I)"));
   side->addWidget(import_);
@@ -260,28 +273,50 @@ void SegmentPage::showOutlines() {
   const image::Grid& grid = mri_->volume().values->grid;
   struct Row {
     int slice;
-    Eigen::Index vertices;
-    QString state;
+    QString vertices, state;
+    bool drawn;
   };
   std::vector<Row> rows;
   for (const roi::Polygon& p : session_.contours().polygons) {
     if (p.points_lps_mm.cols() == 0) continue;
     const QString state = p.exclude                                    ? tr("left out")
-                          : p.state == roi::PolygonState::Accepted     ? tr("accepted")
+                          : p.state == roi::PolygonState::Accepted     ? tr("drawn")
                           : p.state == roi::PolygonState::Interpolated ? tr("interpolated")
                                                                        : tr("draft");
-    rows.push_back({tools::sliceOf(p, grid), p.points_lps_mm.cols(), state});
+    rows.push_back({tools::sliceOf(p, grid), QString::number(p.points_lps_mm.cols()), state,
+                    p.state == roi::PolygonState::Accepted});
   }
+  const session::OutlineCoverage covered = session_.coverage();
+  for (const int k : covered.empty) rows.push_back({k, QStringLiteral("–"), tr("empty"), false});
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.slice > b.slice; });
   for (const Row& r : rows) {
-    auto* item = new QTreeWidgetItem(outlines_, {QString::number(r.slice + 1), QString::number(r.vertices), r.state});
+    auto* item = new QTreeWidgetItem(outlines_, {QString::number(r.slice + 1), r.vertices, r.state});
     item->setData(0, Qt::UserRole, r.slice);
     if (r.slice == mri_->slice()) {
       QFont bold = item->font(0);
       bold.setBold(true);
       for (int c = 0; c < 3; ++c) item->setFont(c, bold);
+    } else if (!r.drawn) {
+      for (int c = 0; c < 3; ++c) item->setForeground(c, palette().color(QPalette::PlaceholderText));
     }
   }
+  QString text;
+  if (!covered.drawn.empty()) {
+    text = tr("%1 drawn, %2 interpolated, %3 empty between them.")
+               .arg(covered.drawn.size())
+               .arg(covered.interpolated.size())
+               .arg(covered.empty.size());
+    if (!covered.empty.empty()) text += QLatin1Char(' ') + tr("A run fills these by shape.");
+  }
+  coverage_->setText(text);
+  showActions();
+}
+
+void SegmentPage::showActions() {
+  const session::OutlineCoverage covered = session_.coverage();
+  interpolate_->setEnabled(covered.drawn.size() > 1 && covered.empty.size() + covered.interpolated.size() > 0 &&
+                           !session_.busy());
+  acceptAll_->setEnabled(!covered.interpolated.empty());
 }
 
 void SegmentPage::showTool() {
@@ -294,6 +329,7 @@ void SegmentPage::showTool() {
   accept_->setEnabled(drawing || editing);
   accept_->setText(drawing ? tr("Close") : tr("Accept"));
   delete_->setEnabled(session_.tool().selected().has_value());
+  showActions();
   switch (state) {
     case tools::ToolState::Idle:
       stateText_->setText(tr("Click vertices on the MRI, or drag to draw freehand. Click an outline to edit it."));
@@ -304,7 +340,11 @@ void SegmentPage::showTool() {
              "the last vertex back, Esc parks a draft."));
       break;
     case tools::ToolState::Editing:
-      stateText_->setText(tr("Drag vertices to adjust; Ctrl+click adds or deletes one. Enter accepts."));
+      stateText_->setText(session_.tool().interpolated()
+                              ? tr("Interpolated between drawn slices. Enter accepts it, correcting it accepts it too; "
+                                   "an outline drawn "
+                                   "on this slice replaces it.")
+                              : tr("Drag vertices to adjust; Ctrl+click adds or deletes one. Enter accepts."));
       break;
     case tools::ToolState::Accepted:
       stateText_->setText(tr("Accepted. It can still be edited; click beside it to draw the next."));

@@ -39,6 +39,7 @@ class SegmentPage : public QWidget {
   void showStatistics();
   void showOutlines();
   void showTool();
+  void showActions();
   void setStiffnessScale(double high_kPa);
 
   session::Session& session_;
@@ -48,9 +49,9 @@ class SegmentPage : public QWidget {
   QLabel* pooled_;
   QLabel* cursor_;
   QLabel* stateText_;
+  QLabel* coverage_;
   QTreeWidget* outlines_;
-  QPushButton *undo_, *redo_, *accept_, *delete_, *import_;
-  std::optional<tools::SlicePlane> leaving_;
+  QPushButton *undo_, *redo_, *accept_, *delete_, *import_, *interpolate_, *acceptAll_;
 };
 
 }  // namespace glisson::panels

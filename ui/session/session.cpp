@@ -3,9 +3,11 @@
 #include <QStandardPaths>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "elastography/roi_mapping.h"
+#include "pipeline/sources.h"
 #include "session/act_command.h"
 
 namespace glisson::session {
@@ -44,10 +46,14 @@ std::size_t Session::acceptedCount() const {
 }
 
 void Session::apply(const tools::Acts& acts) {
-  for (const tools::Act& act : acts) undo_.push(commandOf(act, contours_), contours_);
   if (acts.empty()) {
     toolMoved();
     return;
+  }
+  for (const tools::Act& act : acts) {
+    auto settled = images_.mri ? settleInterpolated(act, contours_, images_.mri->grid) : std::nullopt;
+    undo_.push(settled ? std::move(settled->command) : commandOf(act, contours_), contours_);
+    if (settled) tool_.selectPolygon(settled->selected);
   }
   tool_.contoursChanged();
   contoursTouched();
@@ -144,7 +150,11 @@ StepStatus Session::status(Step step) const {
   if (step == Step::Segment) {
     if (!failed.isEmpty()) return {StepState::Failed, failed};
     if (accepted == 0) return {StepState::Ready, tr("Outline the liver")};
-    return {StepState::Done, plural(accepted, tr("1 outline"), tr("%1 outlines"))};
+    const OutlineCoverage c = coverage();
+    QString detail = plural(accepted, tr("1 outline"), tr("%1 outlines"));
+    if (!c.interpolated.empty()) detail += tr(", %1 slices interpolated").arg(c.interpolated.size());
+    if (!c.empty.empty()) detail += tr(", %1 slices between them empty").arg(c.empty.size());
+    return {StepState::Done, detail};
   }
   if (accepted == 0) return {StepState::Empty, tr("Needs an outline")};
   if (running) return {StepState::Running, tr("Running")};
@@ -161,40 +171,62 @@ StepStatus Session::status(Step step) const {
 }
 
 void Session::measure() {
-  LiveStatistics now;
   if (!images_.stiffness || !images_.mri) {
-    now.reason = tr("No elastogram is open.");
-  } else {
-    roi::ContourStack counted = contours_;
-    if (tool_.preview().cols() > 0 && tool_.selected())
-      counted.polygons[*tool_.selected()].points_lps_mm = tool_.preview();
-    if (tool_.drawing().cols() >= 3) {
-      roi::Polygon inWork;
-      inWork.points_lps_mm = tool_.drawing();
-      counted.polygons.push_back(std::move(inWork));
-    }
-    // A closed outline that is being adjusted counts in the live readout, though it is not accepted yet.
-    if (tool_.state() == tools::ToolState::Editing && tool_.selected() && *tool_.selected() < counted.polygons.size())
-      counted.polygons[*tool_.selected()].state = roi::PolygonState::Accepted;
-    try {
-      const elastography::MappedRoi mapped = elastography::mapRoi(
-          counted, images_.mri->grid, images_.stiffness->values_kPa.grid, images_.stiffness->frameOfReferenceUid);
-      now.pooled = elastography::measure(*images_.stiffness, mapped.mask);
-      if (plane_) {
-        const image::Grid& grid = images_.stiffness->values_kPa.grid;
-        const Eigen::Vector3d centre =
-            plane_->grid.indexToLps({0.5 * plane_->grid.size.x(), 0.5 * plane_->grid.size.y(), 1.0 * plane_->slice});
-        const auto k = static_cast<int>(std::lround(grid.lpsToIndex(centre).z()));
-        for (const elastography::SliceStatistics& s : now.pooled->slices)
-          if (s.slice == k) now.slice = s.statistics;
-      }
-    } catch (const Error& nothing) {
-      now.reason = acceptedCount() == 0 && tool_.drawing().cols() < 3 ? tr("Draw an outline to measure.")
-                                                                      : QString::fromUtf8(nothing.what());
-    }
+    statistics_ = {};
+    statistics_.reason = tr("No elastogram is open.");
+    emit statisticsChanged();
+    return;
   }
-  statistics_ = now;
-  emit statisticsChanged();
+  if (measurer_.busy()) {
+    measureAgain_ = true;
+    return;
+  }
+  roi::ContourStack counted = contours_;
+  if (tool_.preview().cols() > 0 && tool_.selected())
+    counted.polygons[*tool_.selected()].points_lps_mm = tool_.preview();
+  if (tool_.drawing().cols() >= 3) {
+    roi::Polygon inWork;
+    inWork.points_lps_mm = tool_.drawing();
+    counted.polygons.push_back(std::move(inWork));
+  }
+  // A closed outline that is being adjusted counts in the live readout, though it is not accepted yet.
+  if (tool_.state() == tools::ToolState::Editing && tool_.selected() && *tool_.selected() < counted.polygons.size())
+    counted.polygons[*tool_.selected()].state = roi::PolygonState::Accepted;
+  const bool any = std::any_of(counted.polygons.begin(), counted.polygons.end(),
+                               [](const auto& p) { return p.state != roi::PolygonState::Draft; });
+  if (!any) {
+    statistics_ = {};
+    statistics_.reason = tr("Draw an outline to measure.");
+    emit statisticsChanged();
+    return;
+  }
+  auto now = std::make_shared<LiveStatistics>();
+  measurer_.start(
+      [now, counted = std::move(counted), images = images_, plane = plane_](const Progress&) {
+        const image::Grid& grid = images.stiffness->values_kPa.grid;
+        try {
+          pipeline::LoadedRoi roi;
+          roi.contours = counted;
+          // As a run and the command line measure: empty slices between outlines are interpolated.
+          const elastography::MappedRoi mapped = pipeline::mapRoi(roi, images.mri->grid, *images.stiffness);
+          now->pooled = elastography::measure(*images.stiffness, mapped.mask);
+        } catch (const Error& nothing) {
+          now->reason = QString::fromUtf8(nothing.what());
+          return;
+        }
+        if (!plane) return;
+        const Eigen::Vector3d centre =
+            plane->grid.indexToLps({0.5 * plane->grid.size.x(), 0.5 * plane->grid.size.y(), 1.0 * plane->slice});
+        const auto k = static_cast<int>(std::lround(grid.lpsToIndex(centre).z()));
+        for (const elastography::SliceStatistics& s : now->pooled->slices)
+          if (s.slice == k) now->slice = s.statistics;
+      },
+      [this, now](std::exception_ptr failure) {
+        if (failure) now->reason = reasonOf(failure);
+        statistics_ = *now;
+        emit statisticsChanged();
+        if (std::exchange(measureAgain_, false)) measure();
+      });
 }
 
 void Session::ended(Work work, std::exception_ptr failure) {

@@ -18,6 +18,7 @@
 #include "pipeline/run.h"
 #include "pipeline/scene.h"
 #include "roi/contour_stack.h"
+#include "session/interpolated_slices.h"
 #include "session/parameters.h"
 #include "session/step.h"
 #include "session/worker.h"
@@ -91,6 +92,11 @@ class Session : public QObject {
   void setShownPlane(const tools::SlicePlane& plane);  ///< of the MRI: where live statistics look
   const LiveStatistics& statistics() const { return statistics_; }
   std::size_t acceptedCount() const;
+  /// Fills empty slices between drawn ones by shape (roi/interpolate.h), in place of what was interpolated before: one
+  /// undo step, done by a worker. Interpolated outlines count at once.
+  void interpolateOutlines();
+  void acceptInterpolated();  ///< all of them, one undo step
+  OutlineCoverage coverage() const;
 
   // Model, Retract, Compare
   const Parameters& parameters() const { return parameters_; }
@@ -128,13 +134,16 @@ class Session : public QObject {
   void message(const QString& text);
 
  private:
-  enum class Work { None, Load, Run };
+  enum class Work { None, Load, Run, Interpolate };
   void startLoad(std::function<std::filesystem::path(const Progress&)> prepare, const QString& what);
   CaseFiles caseFiles(const std::filesystem::path& folder) const;
   void ended(Work work, std::exception_ptr failure);
   void measure();
   void contoursTouched();
+  void replaceContours(roi::ContourStack after, const char* text);
   Worker worker_;
+  Worker measurer_;  ///< of the live readout; only the latest outlines count
+  bool measureAgain_ = false;
   Work work_ = Work::None;
   QString path_;
   dicom::ScanResult scan_, guessed_;

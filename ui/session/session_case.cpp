@@ -2,7 +2,6 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "commands/replace_contours.h"
 #include "dicom/rtstruct.h"
 #include "elastography/roi_from_structures.h"
 #include "image/io.h"
@@ -33,7 +32,7 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
   pipeline::Scene s;
   s.folder = folder;
   s.geometry.kind = pipeline::GeometrySpec::Kind::Patient;
-  s.geometry.cell_mm.setConstant(parameters_.cell_mm);
+  s.geometry.cell_mm.setConstant(parameters_.cell_mm);  // 0: the pipeline's default for the image
   s.geometry.roi = folder / "contours.json";
   s.material.kind =
       parameters_.useMre && images_.stiffness ? pipeline::MaterialSpec::Kind::Mre : pipeline::MaterialSpec::Kind::Atlas;
@@ -51,6 +50,7 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
   retraction::Retractor retractor;
   retractor.diameter_mm = parameters_.retractorDiameter_mm;
   retractor.length_mm = parameters_.retractorLength_mm;
+  retractor.spread_mm = parameters_.retractorSpread_mm;
   if (!parameters_.forceIsWeight) retractor.force_N = parameters_.force_N;
   s.setup.loads.push_back(retractor);
   s.compare = pipeline::CompareSpec{parameters_.atlasShear_kPa, StiffnessQuantity::Shear};
@@ -105,9 +105,7 @@ void Session::importContours(const QString& file) {
   }
   imported.seriesUid = contours_.seriesUid;
   apply(tool_.state() == tools::ToolState::Drawing && plane_ ? tool_.leaveSlice(*plane_) : tools::Acts{});
-  undo_.push(std::make_unique<commands::ReplaceContours>(contours_, std::move(imported), "import outlines"), contours_);
-  tool_.contoursChanged();
-  contoursTouched();
+  replaceContours(std::move(imported), "import outlines");
 }
 
 }  // namespace glisson::session

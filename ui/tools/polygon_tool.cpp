@@ -33,6 +33,11 @@ ToolState PolygonTool::state() const {
   return contours_.polygons[*selected_].state == roi::PolygonState::Accepted ? ToolState::Accepted : ToolState::Editing;
 }
 
+bool PolygonTool::interpolated() const {
+  return selected_ && *selected_ < contours_.polygons.size() &&
+         contours_.polygons[*selected_].state == roi::PolygonState::Interpolated;
+}
+
 Acts PolygonTool::press(const Pointer& at, const SlicePlane& plane) {
   message_.clear();
   drag_ = Drag::Press;
@@ -181,7 +186,10 @@ Acts PolygonTool::click(const Pointer& at, const SlicePlane& plane) {
   past_.push_back(points_);
   future_.clear();
   addVertex(plane.toLps(at.px));
-  if (insideAny) message_ = "An outline inside a region becomes a hole.";
+  if (insideAny)
+    message_ = contours_.polygons[pressedHit_->polygon].state == roi::PolygonState::Interpolated
+                   ? "Once accepted, this outline replaces the interpolated ones of the slice."
+                   : "An outline inside a region becomes a hole.";
   return {};
 }
 
@@ -220,7 +228,7 @@ Acts PolygonTool::key(ToolKey key, const SlicePlane& plane) {
         points_.conservativeResize(3, points_.cols() - 1);
         if (points_.cols() == 0) clearDrawing();
         updateCrossing(plane);
-      } else if (now == ToolState::Editing) {
+      } else if (now == ToolState::Editing && !interpolated()) {
         // Takes a draft up again where it was left.
         const std::size_t index = *selected_;
         select(std::nullopt);
@@ -236,7 +244,7 @@ Acts PolygonTool::key(ToolKey key, const SlicePlane& plane) {
         selected_ = contours_.polygons.size();  // the draft, once it is added: a second Esc discards it
         return parked;
       }
-      if (now == ToolState::Editing) {
+      if (now == ToolState::Editing && !interpolated()) {
         const std::size_t index = *selected_;
         select(std::nullopt);
         message_ = "Draft discarded; undo brings it back.";

@@ -85,6 +85,8 @@ class PolygonTool {
   bool redoDrawing();
   /// After contours were changed by undo, redo or import: forgets what no longer exists.
   void contoursChanged();
+  /// After a step that moved polygons to other places of the list: which one is selected now, as a whole.
+  void selectPolygon(std::optional<std::size_t> polygon) { select(polygon); }
 
   // What a view shows.
   ToolState state() const;
@@ -94,6 +96,7 @@ class PolygonTool {
   bool crosses() const { return crosses_; }                                   ///< the outline in work crosses itself
   std::optional<Hit> hover() const { return hover_; }
   std::optional<std::size_t> selected() const { return selected_; }
+  bool interpolated() const;  ///< an interpolated outline is selected
   const std::vector<Eigen::Index>& selectedVertices() const { return vertices_; }
   /// Points of the selected polygon while it is being dragged; empty otherwise.
   const Eigen::Matrix3Xd& preview() const { return preview_; }

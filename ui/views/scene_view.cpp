@@ -1,8 +1,11 @@
 #include "views/scene_view.h"
 
 #include <vtkCamera.h>
-#include <vtkNew.h>
+#include <vtkLight.h>
+#include <vtkLightCollection.h>
+#include <vtkPropCollection.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 
 #include <QLabel>
 #include <QStackedLayout>
@@ -68,16 +71,55 @@ void SceneView::resizeEvent(QResizeEvent*) {
 void SceneView::populate(bool keepCamera) {
   if (!keepCamera) newCamera_ = true;
   stale_ = scene_ != nullptr;
-  if (!scene_ || !isVisible()) return;
+  if (!scene_ || !isVisible() || making_) return;
   stale_ = false;
-  vtkNew<vtkCamera> before;
-  before->DeepCopy(widget_->renderer()->GetActiveCamera());
+  making_ = true;
   options_.width = std::max(qRound(width() * devicePixelRatioF()), 64);
   options_.height = std::max(qRound(height() * devicePixelRatioF()), 64);
-  render::populate3D(widget_->renderer(), *scene_, options_);
-  if (!std::exchange(newCamera_, false)) widget_->renderer()->GetActiveCamera()->DeepCopy(before);
-  widget_->renderer()->ResetCameraClippingRange();
+  // Into a renderer of its own, without a window: no OpenGL and no text is touched until it is shown.
+  thread_ = std::jthread([this, scene = scene_, options = options_] {
+    auto made = vtkSmartPointer<vtkRenderer>::New();
+    QString failure;
+    try {
+      render::populate3D(made, *scene, options);
+    } catch (const std::exception& e) {
+      failure = QString::fromUtf8(e.what());
+    }
+    QMetaObject::invokeMethod(
+        this,
+        [this, made, failure, scene] {
+          making_ = false;
+          if (!failure.isEmpty()) {
+            hint_->setText(failure);
+            layout_->setCurrentWidget(hint_);
+          } else if (scene == scene_) {
+            take(made);
+          }
+          if (stale_) populate(true);
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void SceneView::take(vtkRenderer* made) {
+  vtkRenderer* shown = widget_->renderer();
+  shown->RemoveAllViewProps();
+  shown->RemoveAllLights();
+  vtkCollectionSimpleIterator at;
+  made->GetViewProps()->InitTraversal(at);
+  while (vtkProp* prop = made->GetViewProps()->GetNextProp(at)) shown->AddViewProp(prop);
+  made->GetLights()->InitTraversal(at);
+  while (vtkLight* light = made->GetLights()->GetNextLight(at)) shown->AddLight(light);
+  shown->SetBackground(made->GetBackground());
+  shown->SetBackground2(made->GetBackground2());
+  shown->SetGradientBackground(made->GetGradientBackground());
+  if (std::exchange(newCamera_, false)) shown->GetActiveCamera()->DeepCopy(made->GetActiveCamera());
+  shown->ResetCameraClippingRange();
   widget_->update();
+}
+
+SceneView::~SceneView() {
+  if (thread_.joinable()) thread_.join();
 }
 
 }  // namespace glisson::views

@@ -2,11 +2,13 @@
 
 #include <QWidget>
 #include <memory>
+#include <thread>
 
 #include "render/overlay.h"
 
 class QLabel;
 class QStackedLayout;
+class vtkRenderer;
 
 namespace glisson::views {
 
@@ -17,6 +19,7 @@ class SceneView : public QWidget {
   Q_OBJECT
  public:
   explicit SceneView(QWidget* parent = nullptr);
+  ~SceneView() override;  ///< waits for the scene in the making
 
   void setScene(std::shared_ptr<const render::RetractionScene> scene);
   void clear();
@@ -36,10 +39,13 @@ class SceneView : public QWidget {
 
  private:
   void populate(bool keepCamera);
+  void take(vtkRenderer* made);
   std::shared_ptr<const render::RetractionScene> scene_;
   render::SceneOptions3D options_;
   bool stale_ = false;      ///< to be drawn anew when it is next seen
   bool newCamera_ = false;  ///< and from the preset direction
+  bool making_ = false;     ///< the thread is at work; stale_ says that its scene is out of date already
+  std::jthread thread_;     ///< warps the surfaces; what it makes is only shown here
   VtkWidget* widget_;
   QLabel* hint_;
   QStackedLayout* layout_;

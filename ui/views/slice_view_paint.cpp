@@ -149,7 +149,9 @@ void SliceView::paintContours(QPainter& painter) const {
     const QPolygonF outline = toScreen(moving ? tool_->preview() : polygon.points_lps_mm, shown);
     const bool accepted = polygon.state == roi::PolygonState::Accepted;
     const bool crossing = moving && tool_->crosses();
-    const QColor colour = crossing ? crossingColour : accepted ? acceptedColour : draftColour;
+    // Interpolated outlines count like accepted ones: their colour, but dashed until somebody has looked at them.
+    const bool draft = polygon.state == roi::PolygonState::Draft;
+    const QColor colour = crossing ? crossingColour : draft ? draftColour : acceptedColour;
     const QPainterPath path = pathOf(outline, true);
     if (selected) {
       QColor wash = colour;

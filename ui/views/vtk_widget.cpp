@@ -13,7 +13,11 @@
 #include <QOpenGLContext>
 #include <QOpenGLExtraFunctions>
 #include <QSurfaceFormat>
+#include <QTimer>
 #include <QWheelEvent>
+#include <mutex>
+
+#include "render/overlay.h"
 
 namespace glisson::views {
 
@@ -25,9 +29,12 @@ struct VtkWidget::Private {
   vtkNew<vtkCallbackCommand> isCurrent;
   vtkNew<vtkCallbackCommand> renderAsked;
   bool ready = false;
+  bool drawn = false;  ///< there is a frame to show
 };
 
 namespace {
+
+constexpr int retry_ms = 60;
 
 bool contextIsCurrent(const QOpenGLWidget& widget) {
   return widget.context() != nullptr && QOpenGLContext::currentContext() == widget.context();
@@ -102,7 +109,7 @@ void VtkWidget::fitCamera() {
 
 void VtkWidget::releaseGraphics() {
   if (!d_->ready) return;
-  d_->ready = false;
+  d_->ready = d_->drawn = false;
   d_->window->Finalize();
   d_->window->SetReadyForRendering(false);
 }
@@ -131,12 +138,22 @@ void VtkWidget::resizeGL(int, int) {
 void VtkWidget::paintGL() {
   if (!d_->ready) return;
   vtkOpenGLState* state = d_->window->GetState();
-  state->Reset();
-  state->Push();
-  state->vtkglDepthFunc(GL_LEQUAL);
-  d_->window->SetFrameBlitModeToNoBlit();
-  d_->window->Render();
-  state->Pop();
+  // Where a picture is being drawn off screen, on another thread, the last frame stays a little longer: waiting for it
+  // would stop the window, and drawing text at the same time is not safe.
+  const std::unique_lock text(render::textDrawing(), std::try_to_lock);
+  if (text) {
+    state->Reset();
+    state->Push();
+    state->vtkglDepthFunc(GL_LEQUAL);
+    d_->window->SetFrameBlitModeToNoBlit();
+    d_->window->Render();
+    state->Pop();
+    d_->drawn = true;
+  } else {
+    QTimer::singleShot(retry_ms, this, qOverload<>(&QWidget::update));
+    if (!d_->drawn) return;
+    state->Reset();
+  }
 
   const int width = qRound(this->width() * devicePixelRatioF());
   const int height = qRound(this->height() * devicePixelRatioF());
@@ -145,7 +162,7 @@ void VtkWidget::paintGL() {
   context()->extraFunctions()->glDrawBuffers(1, &attachment);
   state->vtkglDisable(GL_SCISSOR_TEST);
   d_->window->BlitDisplayFramebuffer(0, 0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  emit rendered();
+  if (text) emit rendered();
 }
 
 bool VtkWidget::event(QEvent* event) {

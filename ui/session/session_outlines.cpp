@@ -1,0 +1,73 @@
+// Interpolating between drawn slices, and accepting what was interpolated.
+#include "base/error.h"
+#include "commands/replace_contours.h"
+#include "roi/interpolate.h"
+#include "session/session.h"
+
+namespace glisson::session {
+
+OutlineCoverage Session::coverage() const {
+  return images_.mri ? coverageOf(contours_, images_.mri->grid) : OutlineCoverage{};
+}
+
+void Session::interpolateOutlines() {
+  if (worker_.busy()) {
+    emit message(tr("Still at work; cancel it first."));
+    return;
+  }
+  if (!images_.mri || coverage().drawn.size() < 2) {
+    emit message(tr("Outline the liver on two slices at least, and accept these outlines (Enter)."));
+    return;
+  }
+  // What was interpolated before is made anew from the outlines as they are now.
+  auto full = std::make_shared<roi::ContourStack>(contours_);
+  std::erase_if(full->polygons, [](const auto& p) { return p.state == roi::PolygonState::Interpolated; });
+  const std::uint64_t revision = revision_;
+  work_ = Work::Interpolate;
+  worker_.start(
+      [full, mri = images_.mri](const Progress&) { *full = roi::interpolateBetween(*full, mri->grid); },
+      [this, full, revision](std::exception_ptr failure) {
+        ended(Work::Interpolate, failure);
+        if (failure) return;
+        if (revision != revision_) {
+          emit message(tr("The outlines changed meanwhile; interpolate again."));
+          return;
+        }
+        if (std::none_of(full->polygons.begin(), full->polygons.end(),
+                         [](const auto& p) { return p.state == roi::PolygonState::Interpolated; })) {
+          emit message(tr("There is no empty slice between outlines that overlap."));
+          return;
+        }
+        replaceContours(std::move(*full), "interpolate between slices");
+        const OutlineCoverage now = coverage();
+        emit message(
+            tr("%1 slices were interpolated between %2 drawn ones. They count; accept, correct or redraw them.")
+                .arg(now.interpolated.size())
+                .arg(now.drawn.size()));
+      });
+  emit workStarted(tr("Interpolating"));
+  emit statusChanged();
+}
+
+void Session::acceptInterpolated() {
+  roi::ContourStack after = contours_;
+  bool any = false;
+  for (roi::Polygon& p : after.polygons)
+    if (p.state == roi::PolygonState::Interpolated) {
+      p.state = roi::PolygonState::Accepted;
+      any = true;
+    }
+  if (any) replaceContours(std::move(after), "accept all interpolated outlines");
+}
+
+void Session::replaceContours(roi::ContourStack after, const char* text) {
+  std::optional<Eigen::Vector3d> here;  // undo stays on the slice that is shown
+  if (plane_)
+    here = plane_->grid.indexToLps({0.5 * plane_->grid.size.x(), 0.5 * plane_->grid.size.y(), 1.0 * plane_->slice});
+  undo_.push(std::make_unique<commands::ReplaceContours>(contours_, std::move(after), text, here), contours_);
+  tool_.selectPolygon(std::nullopt);
+  tool_.contoursChanged();
+  contoursTouched();
+}
+
+}  // namespace glisson::session
