@@ -54,7 +54,7 @@ TEST(Scene, ComplaintsNameKeyAndLine) {
   EXPECT_THAT(messageOf(replaced(beam, "[50,5,5]", "[50,5]")), HasSubstr("line 6"));
   EXPECT_THAT(messageOf(replaced(beam, "scene/1", "scene/7")), HasSubstr("glisson/scene/1"));
   EXPECT_THAT(messageOf(replaced(beam, "\"fixed\" }", "\"fixed\", \"kind\": \"fixed\" }")), HasSubstr("twice"));
-  EXPECT_THAT(messageOf(replaced(beam, "}\n})", "")), AllOf(HasSubstr("not JSON"), HasSubstr("line")));
+  EXPECT_THAT(messageOf(replaced(beam, "} ]\n}", "} ]")), AllOf(HasSubstr("not JSON"), HasSubstr("line")));
   EXPECT_THAT(messageOf("[]"), HasSubstr("object"));
   EXPECT_THAT(messageOf(""), HasSubstr("not JSON"));
 }
