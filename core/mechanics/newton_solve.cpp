@@ -6,17 +6,19 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "mechanics/measures.h"
 #include "mechanics/newton_tangent.h"
 #include "mechanics/supports.h"
 
 namespace glisson::mechanics {
 namespace {
 
-constexpr double smallestStep = 1.0 / 1024;
-constexpr int iterationLimit = 1000;  ///< of all steps
-constexpr int plainLimit = 15;        ///< per step, full Newton steps
-constexpr int searchLimit = 40;       ///< per step, with line search
-constexpr int quick = 8;              ///< iterations after which the next step may grow
+constexpr double smallestStep = 1.0 / 128;
+constexpr double searchedStep = 0.25;  ///< steps up to this are tried with line search before they are halved
+constexpr int iterationLimit = 200;    ///< of all steps
+constexpr int plainLimit = 15;         ///< per step, full Newton steps
+constexpr int searchLimit = 25;        ///< per step, with line search
+constexpr int quick = 8;               ///< iterations after which the next step may grow
 
 struct Newton {
   LargeDeformationModel model;
@@ -56,6 +58,10 @@ struct Newton {
 
   /// Equilibrium at load fraction t from u. False: u is of no use.
   bool step(double t, Eigen::VectorXd& u, bool search);
+  /// A step may end in an equilibrium of folded cells, far from the body's own path.
+  bool folded(const Eigen::VectorXd& u) const {
+    return summarise(model.op().mesh(), u.reshaped(3, u.size() / 3)).invertedCells > 0;
+  }
   /// Moves u along du; false where no length of the step is good.
   bool searchAlong(double t, Eigen::VectorXd& u, const Eigen::VectorXd& du, double potential0,
                    const Eigen::VectorXd& r);
@@ -68,7 +74,7 @@ bool Newton::searchAlong(double t, Eigen::VectorXd& u, const Eigen::VectorXd& du
   if (!(slope > 0)) return false;
   double energy = 0;
   Eigen::VectorXd force;
-  for (double alpha = 1; alpha > 1e-3; alpha *= 0.5) {
+  for (double alpha = 1; alpha > 0.01; alpha *= 0.5) {
     const Eigen::VectorXd next = u + alpha * du;
     if (!model.evaluate(next, Tangent::None, energy, force)) continue;
     if (potential(t, energy, next) <= potential0 - 1e-4 * alpha * slope ||
@@ -93,10 +99,10 @@ bool Newton::step(double t, Eigen::VectorXd& u, bool search) {
     if (!std::isfinite(size) || (iteration > 3 && size > 1e6 * unit)) return false;
     const bool arriving = moves && iteration == 0;  // prescribed displacements are still at the last step's
     if (!arriving) {
-      if (size <= tolerance * unit) return true;
+      if (size <= tolerance * unit) return !folded(u);
       if (iteration > 2 && size <= floor(u)) {
         atRounding = true;
-        return true;
+        return !folded(u);
       }
     }
     std::ostringstream what;
@@ -132,7 +138,7 @@ bool Newton::run(Eigen::VectorXd& u, double& reached, int& steps) {
     const int before = iterations;
     Eigen::VectorXd trial = u;
     bool good = step(target, trial, false);
-    if (!good) {
+    if (!good && size <= searchedStep) {
       trial = u;
       good = step(target, trial, true);
     }
