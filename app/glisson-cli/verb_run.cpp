@@ -59,8 +59,10 @@ void addRun(CLI::App& app, Context& context) {
       context.print(Json::parse(r.json), summary(r));
       if (!r.primary.solver.converged() || (r.atlas && !r.atlas->solver.converged())) {
         std::cerr << "glisson-cli: the solve did not converge (" << r.primary.solver.kind << ", residual "
-                  << r.primary.solver.residual << "); its result is marked and not drawn: raise \"iterations\" or use "
-                  << "solver \"auto\"" << std::endl;
+                  << r.primary.solver.residual << "); its result is marked and not drawn: "
+                  << (scene.setup.kinematics == retraction::Kinematics::Linear
+                          ? "raise \"iterations\" or use solver \"auto\""
+                          : "this load folds the body; lower it, spread it or stiffen the supports") << std::endl;
         return NotConverged;
       }
       return Ok;

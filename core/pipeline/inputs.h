@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/progress.h"
@@ -21,6 +22,7 @@ struct Inputs {
   std::optional<elastography::StiffnessMap> stiffness;  ///< MRE or map, with its confidence
   std::optional<elastography::MappedRoi> roiOnMre;      ///< region of interest on the grid of the elastogram
   std::vector<std::string> warnings;
+  std::vector<std::pair<std::string, double>> seconds;  ///< what reading took, by step of the plan
 };
 
 /// Reads what the scene needs and nothing else. Throws BadInput.

@@ -51,6 +51,17 @@ class Steps {
     }
     throw BadArgument("the plan has no step \"" + name + "\"");
   }
+  /// What was done before the steps began: reading. Without it the time is 0: the inputs were there already.
+  void noteReading(const std::vector<std::pair<std::string, double>>& seconds) {
+    for (PlanStep& s : plan_)
+      if (s.step.rfind("read-", 0) == 0) s.seconds = 0.0;
+    for (const auto& [step, time] : seconds)
+      for (PlanStep& s : plan_)
+        if (s.step == step) {
+          s.seconds = time;
+          s.peak_MB = peak_MB();
+        }
+  }
   void leaveOut(const std::string& name, const std::string& why) {
     for (PlanStep& s : plan_)
       if (s.step == name) {
@@ -100,6 +111,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     loaded = loadInputs(scene, progress.part(0.0, 0.05));
   const Inputs& inputs = given ? *given : loaded;
   r.warnings = inputs.warnings;
+  steps.noteReading(given ? std::vector<std::pair<std::string, double>>{} : inputs.seconds);
 
   steps.run("measure-stiffness", [&](const Progress&) {
     if (!inputs.stiffness || !inputs.roiOnMre) throw BadArgument("run: no elastogram or no region of interest was loaded");
