@@ -47,8 +47,8 @@ class Bar {
       last_ = now;
       const int filled = static_cast<int>(30.0 * fraction);
       std::cerr << "\r[" << std::string(static_cast<std::size_t>(filled), '#')
-                << std::string(static_cast<std::size_t>(30 - filled), ' ') << "] "
-                << static_cast<int>(100.0 * fraction) << " %  " << what << "\033[K";
+                << std::string(static_cast<std::size_t>(30 - filled), ' ') << "] " << static_cast<int>(100.0 * fraction)
+                << " %  " << what << "\033[K";
       if (fraction >= 1.0) std::cerr << "\n";
       std::cerr.flush();
     } else if (what != lastWhat_) {

@@ -29,7 +29,9 @@ int main(int argc, char** argv) {
   std::setlocale(LC_ALL, "C");
   std::locale::global(std::locale::classic());
 
-  CLI::App app{"Glisson: patient-specific biomechanics for image-guided liver surgery.\nResearch use only, not for clinical use."};
+  CLI::App app{
+      "Glisson: patient-specific biomechanics for image-guided liver surgery.\nResearch use only, not for clinical "
+      "use."};
   app.set_version_flag("--version", std::string("glisson-cli ") + version());
   app.require_subcommand(1);
   app.fallthrough();

@@ -17,7 +17,9 @@ struct Arguments {
   double poisson = 0.5;
 };
 
-Json orNull(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+Json orNull(double v) {
+  return std::isfinite(v) ? Json(v) : Json(nullptr);
+}
 
 Json toJson(const elastography::Statistics& s) {
   Json j;
@@ -94,14 +96,17 @@ void addMeasure(CLI::App& app, Context& context) {
   auto a = std::make_shared<Arguments>();
   verb->add_option("--mre", a->mre, "elastogram: DICOM folder, or a stiffness map")->required();
   verb->add_option("--roi", a->roi, "region of interest: contour JSON, RT Structure Set or mask")->required();
-  verb->add_option("--mri", a->mri, "image that the contours were drawn on, where its slices differ from the elastogram's");
+  verb->add_option("--mri", a->mri,
+                   "image that the contours were drawn on, where its slices differ from the elastogram's");
   verb->add_option("--quantity", a->quantity, "what a bare map holds")->check(CLI::IsMember({"shear", "youngs"}));
   verb->add_option("--unit", a->unit, "unit of a bare map: Pa, kPa or <factor>kPa");
   verb->add_option("--label", a->label, "label of a mask, 0 = any");
   verb->add_option("--name", a->name, "structure of an RT Structure Set");
   verb->add_option("--confidence", a->confidence, "voxels below are left out, 0 to 1")->check(CLI::Range(0.0, 1.0));
-  verb->add_option("--erode", a->erosion_pixels, "inner region of interest: pixels to take off the border")->check(CLI::Range(0, 100));
-  verb->add_option("--poisson", a->poisson, "for Young's modulus; 0.5 is incompressible, E = 3 mu")->check(CLI::Range(0.0, 0.5));
+  verb->add_option("--erode", a->erosion_pixels, "inner region of interest: pixels to take off the border")
+      ->check(CLI::Range(0, 100));
+  verb->add_option("--poisson", a->poisson, "for Young's modulus; 0.5 is incompressible, E = 3 mu")
+      ->check(CLI::Range(0.0, 0.5));
   verb->callback([&context, a] { context.action = [&context, a] { return measure(*a, context); }; });
 }
 

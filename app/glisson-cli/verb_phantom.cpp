@@ -11,7 +11,8 @@ void addPhantom(CLI::App& app, Context& context) {
   auto options = std::make_shared<phantom::PhantomOptions>();
   auto cohort = std::make_shared<std::string>();
   verb->add_option("--cases", options->cases, "number of patients")->check(CLI::Range(1, 9999));
-  verb->add_option("--cohort", *cohort, "paper: stiffness drawn as in the published cohort")->check(CLI::IsMember({"paper"}));
+  verb->add_option("--cohort", *cohort, "paper: stiffness drawn as in the published cohort")
+      ->check(CLI::IsMember({"paper"}));
   verb->callback([&context, options, cohort] {
     context.action = [&context, options, cohort] {
       if (context.output.empty()) throw BadInput("phantom needs a folder to write to: give --output");

@@ -6,7 +6,8 @@
 namespace glisson::cli {
 
 void addPlan(CLI::App& app, Context& context) {
-  CLI::App* verb = app.add_subcommand("plan", "what a scene needs and what it leaves out, with reasons and predicted size");
+  CLI::App* verb =
+      app.add_subcommand("plan", "what a scene needs and what it leaves out, with reasons and predicted size");
   auto scene = std::make_shared<std::filesystem::path>();
   verb->add_option("scene", *scene, "scene.json")->required();
   verb->callback([&context, scene] {

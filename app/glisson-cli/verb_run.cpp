@@ -62,7 +62,8 @@ void addRun(CLI::App& app, Context& context) {
                   << r.primary.solver.residual << "); its result is marked and not drawn: "
                   << (scene.setup.kinematics == retraction::Kinematics::Linear
                           ? "raise \"iterations\" or use solver \"auto\""
-                          : "this load folds the body; lower it, spread it or stiffen the supports") << std::endl;
+                          : "this load folds the body; lower it, spread it or stiffen the supports")
+                  << std::endl;
         return NotConverged;
       }
       return Ok;

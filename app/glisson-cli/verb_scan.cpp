@@ -25,14 +25,18 @@ Json toJson(const dicom::Series& s) {
   j["direction"] = d;
   if (s.unit) j["unit"] = *s.unit;
   j["warnings"] = s.warnings;
-  if (s.error) j["error"] = *s.error;
+  if (s.error) {
+    j["warnings"].push_back("cannot be used as a volume: " + *s.error);
+    j["error"] = *s.error;
+  }
   return j;
 }
 
 }  // namespace
 
 void addScan(CLI::App& app, Context& context) {
-  CLI::App* verb = app.add_subcommand("scan", "list the series of a folder: roles with reasons, geometry, warnings, skipped files");
+  CLI::App* verb =
+      app.add_subcommand("scan", "list the series of a folder: roles with reasons, geometry, warnings, skipped files");
   auto path = std::make_shared<std::filesystem::path>();
   verb->add_option("path", *path, "DICOM folder or file")->required();
   verb->callback([&context, path] {

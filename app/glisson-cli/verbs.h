@@ -13,7 +13,15 @@ namespace glisson::cli {
 using Json = nlohmann::ordered_json;
 
 /// Exit codes of the command line.
-enum ExitCode { Ok = 0, Failed = 1, Usage = 2, BadInputCode = 3, NotConverged = 4, CancelledCode = 5, PartialBatch = 6 };
+enum ExitCode {
+  Ok = 0,
+  Failed = 1,
+  Usage = 2,
+  BadInputCode = 3,
+  NotConverged = 4,
+  CancelledCode = 5,
+  PartialBatch = 6
+};
 
 /// What every verb shares: the common options and where output goes.
 struct Context {

@@ -42,7 +42,9 @@ void setThreadCount(int threads) {
   a.arena.reset();
 }
 
-int threadCount() { return theArena().get()->max_concurrency(); }
+int threadCount() {
+  return theArena().get()->max_concurrency();
+}
 
 void parallelChunks(std::size_t n, std::size_t chunk, const std::function<void(std::size_t, std::size_t)>& body) {
   if (chunk == 0) throw BadArgument("parallelChunks: chunk must be at least 1");

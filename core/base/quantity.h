@@ -75,14 +75,14 @@ enum class StiffnessQuantity { Shear, Youngs };
 /// Defaults of the study (all editable, all written to the run record).
 namespace defaults {
 inline constexpr Density liverDensity = Density::fromKgPerM3(1060.0);
-inline constexpr double poisson = 0.45;                                       // unitless
-inline constexpr double gravity_m_s2 = 9.81;                                  // m/s²
-inline constexpr ShearModulus atlasShear = ShearModulus::fromKPa(2.1);        // healthy donors [lee2013mr]
-inline constexpr Length clinicallySignificant = Length::fromMm(5.0);          // [bernhardt2017status]
-inline constexpr Length mriVoxel = Length::fromMm(1.64);                      // GE MR750 study
-inline constexpr Length retractorDiameter = Length::fromMm(10.0);             // Nathanson
+inline constexpr double poisson = 0.45;                                         // unitless
+inline constexpr double gravity_m_s2 = 9.81;                                    // m/s²
+inline constexpr ShearModulus atlasShear = ShearModulus::fromKPa(2.1);          // healthy donors [lee2013mr]
+inline constexpr Length clinicallySignificant = Length::fromMm(5.0);            // [bernhardt2017status]
+inline constexpr Length mriVoxel = Length::fromMm(1.64);                        // GE MR750 study
+inline constexpr Length retractorDiameter = Length::fromMm(10.0);               // Nathanson
 inline constexpr YoungsModulus phantomSilicone = YoungsModulus::fromKPa(12.0);  // 10 % silicone
-inline constexpr double confidenceThreshold = 0.95;                           // unitless, of 1
+inline constexpr double confidenceThreshold = 0.95;                             // unitless, of 1
 }  // namespace defaults
 
 }  // namespace glisson

@@ -22,7 +22,9 @@ double percentile95(std::vector<double> v) {
   return v[rank];
 }
 
-double largest(const std::vector<double>& v) { return v.empty() ? 0.0 : *std::max_element(v.begin(), v.end()); }
+double largest(const std::vector<double>& v) {
+  return v.empty() ? 0.0 : *std::max_element(v.begin(), v.end());
+}
 
 }  // namespace
 
@@ -41,8 +43,7 @@ Difference compare(const retraction::Model& model, const retraction::Result& a, 
   d.max_mm = largest(body);
 
   std::vector<double> contact;
-  for (const int node : a.contactNodes)
-    contact.push_back(1e3 * (a.nodal_u_m.col(node) - b.nodal_u_m.col(node)).norm());
+  for (const int node : a.contactNodes) contact.push_back(1e3 * (a.nodal_u_m.col(node) - b.nodal_u_m.col(node)).norm());
   d.at_retractor_mm = mean(contact);
   d.clinically_significant = (contact.empty() ? d.max_mm : d.at_retractor_mm) >= significant.mm();
 

@@ -15,7 +15,7 @@ struct Difference {
   bool clinically_significant = false;               ///< at the retractor (else the maximum) ≥ 5 mm
   std::vector<double> vessel_mm;                     ///< per vessel landmark, where there are any
   double vesselMean_mm = 0.0, vesselP95_mm = 0.0, vesselMax_mm = 0.0;
-  double vesselFractionBeyond = 0.0;                 ///< share of landmarks ≥ 5 mm apart
+  double vesselFractionBeyond = 0.0;  ///< share of landmarks ≥ 5 mm apart
 };
 
 /// Compares two retractions of the same model grid under the same load. landmarks_mm: vessel centrelines at rest (LPS).

@@ -54,7 +54,8 @@ image::Mask resampled(const image::Mask& mask, const Eigen::Vector3d& cell_mm) {
   image::Grid grid;
   grid.direction = mask.grid.direction;
   grid.spacing_mm = cell_mm;
-  const Eigen::Vector3d extent_mm = (high - low + Eigen::Vector3i::Ones()).cast<double>().cwiseProduct(mask.grid.spacing_mm);
+  const Eigen::Vector3d extent_mm =
+      (high - low + Eigen::Vector3i::Ones()).cast<double>().cwiseProduct(mask.grid.spacing_mm);
   grid.size = extent_mm.cwiseQuotient(cell_mm).array().ceil().cast<int>().max(1);
   const Eigen::Vector3d corner_mm = mask.grid.indexToLps(low.cast<double>() - Eigen::Vector3d::Constant(0.5));
   const Eigen::Vector3d slack_mm = 0.5 * (grid.size.cast<double>().cwiseProduct(cell_mm) - extent_mm);
@@ -84,12 +85,12 @@ image::Mask resampled(const image::Mask& mask, const Eigen::Vector3d& cell_mm) {
 }
 
 float youngs_kPa(double value_kPa, StiffnessQuantity quantity, double poisson) {
-  return static_cast<float>(quantity == StiffnessQuantity::Youngs
-                                ? value_kPa
-                                : toYoungs(ShearModulus::fromKPa(value_kPa), poisson).kPa());
+  return static_cast<float>(
+      quantity == StiffnessQuantity::Youngs ? value_kPa : toYoungs(ShearModulus::fromKPa(value_kPa), poisson).kPa());
 }
 
-retraction::Model uniformModel(const Scene& scene, const image::Mask& cells, double value_kPa, StiffnessQuantity quantity) {
+retraction::Model uniformModel(const Scene& scene, const image::Mask& cells, double value_kPa,
+                               StiffnessQuantity quantity) {
   image::ScalarVolume E(cells.grid, 0.0f);
   // Through a float first: a map holds floats, and equal stiffness must give equal bits.
   const float value = youngs_kPa(static_cast<double>(static_cast<float>(value_kPa)), quantity, scene.setup.poisson);
@@ -113,9 +114,11 @@ image::ScalarVolume mapOnCells(const elastography::StiffnessMap& map, const imag
         const float v = there ? map.values_kPa.at(at) : 0.0f;
         if (!there || !std::isfinite(v) || v <= 0.0f) {
           std::ostringstream text;
-          text << "the stiffness map has " << (there ? "the value " + std::to_string(v) + " kPa" : std::string("no voxel"))
-               << " at voxel (" << i << ", " << j << ", " << k << ") of the body";
-          if (there) text << ", slice " << at.z() << " of the map";
+          if (there)
+            text << "the stiffness map holds no usable modulus at its voxel (" << at.x() << ", " << at.y() << ", "
+                 << at.z() << "), slice " << at.z() << ": " << v << " kPa (0 also stands for what is not a number)";
+          else
+            text << "the stiffness map does not reach voxel (" << i << ", " << j << ", " << k << ") of the body";
           text << "; every voxel of the body needs a positive modulus";
           throw BadInput(text.str());
         }
@@ -148,10 +151,10 @@ retraction::Model buildModel(const Scene& scene, const Inputs& inputs, const ima
   }
   if (!inputs.stiffness) throw BadArgument("buildModel: the inputs hold no stiffness map");
   const elastography::StiffnessMap& map = *inputs.stiffness;
-  image::ScalarVolume E = m.kind == MaterialSpec::Kind::Map
-                              ? mapOnCells(map, cells)
-                              : elastography::fillStiffness(map, cells, inputs.roiOnMre ? &inputs.roiOnMre->mask : nullptr)
-                                    .values_kPa;
+  image::ScalarVolume E =
+      m.kind == MaterialSpec::Kind::Map
+          ? mapOnCells(map, cells)
+          : elastography::fillStiffness(map, cells, inputs.roiOnMre ? &inputs.roiOnMre->mask : nullptr).values_kPa;
   for (float& v : E.values)
     if (v != 0.0f) v = youngs_kPa(static_cast<double>(v), map.quantity, scene.setup.poisson);
   return retraction::makeModel(std::move(E), scene.setup.poisson, scene.setup.density,

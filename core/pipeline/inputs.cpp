@@ -10,7 +10,9 @@
 namespace glisson::pipeline {
 namespace {
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& from) { to.insert(to.end(), from.begin(), from.end()); }
+void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
 
 /// Notes the time since the last note under the name of a step.
 class StepClock {
@@ -39,7 +41,8 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
   append(in.warnings, roi.warnings);
   if (roi.contours && !roi.contours->frameOfReferenceUid.empty() && !mri.frameOfReferenceUid.empty() &&
       roi.contours->frameOfReferenceUid != mri.frameOfReferenceUid)
-    in.warnings.push_back("the contours and the MRI have different frames of reference: check that they belong together");
+    in.warnings.push_back(
+        "the contours and the MRI have different frames of reference: check that they belong together");
   const std::optional<std::string> completed = completeOutlines(roi, mri.volume.grid);
   if (completed) in.warnings.push_back(*completed);
   in.liver = roi.contours ? roi::rasterise(*roi.contours, mri.volume.grid) : *roi.mask;
@@ -52,7 +55,8 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
       throw BadInput("the MRI and the elastogram belong to different patients; choose two series of one patient");
     if (!mri.frameOfReferenceUid.empty() && !mre.map.frameOfReferenceUid.empty() &&
         mri.frameOfReferenceUid != mre.map.frameOfReferenceUid)
-      in.warnings.push_back("the MRI and the elastogram have different frames of reference: check that the patient did not move");
+      in.warnings.push_back(
+          "the MRI and the elastogram have different frames of reference: check that the patient did not move");
     in.roiOnMre = mapRoi(roi, mri.volume.grid, mre.map);
     for (const std::string& warning : in.roiOnMre->warnings)
       if (warning != completed) in.warnings.push_back(warning);

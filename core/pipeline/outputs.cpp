@@ -20,13 +20,17 @@ using report::number;
 /// How far the tissue around the liver follows it in the pictures; beyond, nothing moves.
 constexpr double pictureMargin_mm = 40.0;
 
-std::string inWords(const Eigen::Vector3d& v) { return number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()); }
+std::string inWords(const Eigen::Vector3d& v) {
+  return number(v.x()) + ", " + number(v.y()) + ", " + number(v.z());
+}
 
 /// Something to warp where the scene has no image: the stiffness of the body, which is all that is known of it.
-image::ScalarVolume stiffnessAsImage(const RunResult& r) { return r.model.youngs_kPa; }
+image::ScalarVolume stiffnessAsImage(const RunResult& r) {
+  return r.model.youngs_kPa;
+}
 
-/// Where the two predictions differ most in a slice, in the middle between the two places; the middle of the image where
-/// nothing moves.
+/// Where the two predictions differ most in a slice, in the middle between the two places; the middle of the image
+/// where nothing moves.
 Eigen::Vector3d placeOfLargestDifference(const render::RetractionScene& p, int slice) {
   const image::Grid& grid = p.u_mre_mm.grid;
   const image::Grid& mri = p.mri.grid;
@@ -68,7 +72,8 @@ std::string caption(const Scene& scene, const RunResult& r) {
   const mechanics::SolveReport& s = r.primary.solver;
   std::string c = r.atlas ? "MRE against atlas stiffness, same load. " : "One stiffness. ";
   if (r.difference) {
-    c += "Difference: mean " + number(r.difference->mean_mm, 3) + " mm, largest " + number(r.difference->max_mm, 3) + " mm";
+    c += "Difference: mean " + number(r.difference->mean_mm, 3) + " mm, largest " + number(r.difference->max_mm, 3) +
+         " mm";
     if (r.primary.retractorPoint_mm) c += ", at the retractor " + number(r.difference->at_retractor_mm, 3) + " mm";
     c += ". ";
   }
@@ -155,11 +160,13 @@ void Writer::vessels(const Scene&, const RunResult& r, const anatomy::VesselMode
 }
 
 void Writer::stiffness(const elastography::Measurement& m) {
-  report::Csv csv({"slice", "quantity", "n", "n_before_mask", "area_mm2", "mean_kPa", "median_kPa", "sd_kPa", "min_kPa", "max_kPa"});
+  report::Csv csv({"slice", "quantity", "n", "n_before_mask", "area_mm2", "mean_kPa", "median_kPa", "sd_kPa", "min_kPa",
+                   "max_kPa"});
   const std::string quantity = m.quantity == StiffnessQuantity::Shear ? "shear" : "youngs";
   auto row = [&](const std::string& name, const elastography::Statistics& v) {
-    csv.row({name, quantity, std::to_string(v.n), std::to_string(v.n_before_mask), number(v.area_mm2, 7), number(v.mean_kPa, 7),
-             number(v.median_kPa, 7), number(v.sd_kPa, 7), number(v.min_kPa, 7), number(v.max_kPa, 7)});
+    csv.row({name, quantity, std::to_string(v.n), std::to_string(v.n_before_mask), number(v.area_mm2, 7),
+             number(v.mean_kPa, 7), number(v.median_kPa, 7), number(v.sd_kPa, 7), number(v.min_kPa, 7),
+             number(v.max_kPa, 7)});
   };
   for (const auto& slice : m.slices) row(std::to_string(slice.slice), slice.statistics);
   row("pooled", m.pooled);
@@ -217,8 +224,9 @@ void Writer::report(const Scene& scene, const RunResult& r) {
     rows.emplace_back("Difference over the liver, mean", number(d.mean_mm) + " mm");
     rows.emplace_back("95 % of the liver below", number(d.p95_mm) + " mm");
     rows.emplace_back("Largest", number(d.max_mm) + " mm");
-    rows.emplace_back("At the retractor", number(d.at_retractor_mm) + " mm" +
-                                              (d.clinically_significant ? " (5 mm or more: clinically significant)" : ""));
+    rows.emplace_back("At the retractor",
+                      number(d.at_retractor_mm) + " mm" +
+                          (d.clinically_significant ? " (5 mm or more: clinically significant)" : ""));
     if (!d.vessel_mm.empty()) {
       rows.emplace_back("Vessel landmarks, mean", number(d.vesselMean_mm) + " mm");
       rows.emplace_back("Vessel landmarks 5 mm or more apart", number(100 * d.vesselFractionBeyond, 3) + " %");
@@ -227,9 +235,10 @@ void Writer::report(const Scene& scene, const RunResult& r) {
   rows.emplace_back("Largest displacement", number(r.primary.max_displacement_mm) + " mm");
   if (r.stiffness) {
     const auto& s = r.stiffness->pooled;
-    rows.emplace_back(r.stiffness->quantity == StiffnessQuantity::Shear ? "Shear modulus in the ROI" : "Young's modulus in the ROI",
-                      number(s.mean_kPa) + " ± " + number(s.sd_kPa) + " kPa (" + std::to_string(s.n_before_mask) +
-                          " voxels, " + std::to_string(s.n) + " after the confidence mask)");
+    rows.emplace_back(
+        r.stiffness->quantity == StiffnessQuantity::Shear ? "Shear modulus in the ROI" : "Young's modulus in the ROI",
+        number(s.mean_kPa) + " ± " + number(s.sd_kPa) + " kPa (" + std::to_string(s.n_before_mask) + " voxels, " +
+            std::to_string(s.n) + " after the confidence mask)");
   }
   page.table(rows);
   page.heading("Can it be trusted?");
@@ -238,21 +247,24 @@ void Writer::report(const Scene& scene, const RunResult& r) {
                        ? "Strains and rotations are small enough for linear theory."
                        : "The large-deformation solve converged, and no cell is turned inside out.");
   page.list(r.primary.validity);
-  page.table({{"Solver", r.primary.solver.kind + ", relative residual " + number(r.primary.solver.residual, 2)},
-              {"Strain, largest / 95 % below", number(r.primary.max_strain, 3) + " / " + number(r.primary.p95_strain, 3)},
-              {"Largest rotation", number(r.primary.max_rotation_deg, 3) + " degrees"},
-              {"Load", inWords(r.primary.load_N) + " N"},
-              {"Reaction", inWords(r.primary.reaction_N) + " N"}});
+  page.table(
+      {{"Solver", r.primary.solver.kind + ", relative residual " + number(r.primary.solver.residual, 2)},
+       {"Strain, largest / 95 % below", number(r.primary.max_strain, 3) + " / " + number(r.primary.p95_strain, 3)},
+       {"Largest rotation", number(r.primary.max_rotation_deg, 3) + " degrees"},
+       {"Load", inWords(r.primary.load_N) + " N"},
+       {"Reaction", inWords(r.primary.reaction_N) + " N"}});
   if (r.discretisation) page.paragraph(r.discretisation->note);
   page.list(r.warnings);
   page.heading("Pictures");
   for (const auto& f : r.files) {
     if (f.extension() != ".png") continue;
     const std::string name = f.filename().string();
-    page.picture(f, name == "difference-map.png" ? "Distance between the two predictions, mm"
-                    : name.rfind("overlay-3d", 0) == 0
-                        ? "Vessels where the measured stiffness puts them (blue) and where the textbook stiffness does (red)"
-                        : "The image moved by each prediction: measured stiffness in blue, textbook in red, purple where they agree");
+    page.picture(
+        f, name == "difference-map.png" ? "Distance between the two predictions, mm"
+           : name.rfind("overlay-3d", 0) == 0
+               ? "Vessels where the measured stiffness puts them (blue) and where the textbook stiffness does (red)"
+               : "The image moved by each prediction: measured stiffness in blue, textbook in red, purple where they "
+                 "agree");
   }
   page.heading("Method");
   page.table({{"Volume", number(r.model.volume_mL) + " mL"},

@@ -58,9 +58,10 @@ double predictCells(const Scene& s) {
 std::vector<PlanStep> plan(const Scene& s) {
   const detail::Needs n(s);
   const double cells = predictCells(s);
-  const double dofs = n.meshfree ? s.setup.model.meshfree.frames * (s.setup.model.meshfree.order == 2 ? 30.0 : 12.0)
-                                 : 3.3 * cells;
-  // Bytes per degree of freedom of the multigrid solve (vectors, hierarchy), and seconds per degree of freedom, one solve.
+  const double dofs =
+      n.meshfree ? s.setup.model.meshfree.frames * (s.setup.model.meshfree.order == 2 ? 30.0 : 12.0) : 3.3 * cells;
+  // Bytes per degree of freedom of the multigrid solve (vectors, hierarchy), and seconds per degree of freedom, one
+  // solve.
   const double solve_MB = 250e-6 * 3.3 * cells;
   const double solve_s = 4e-6 * 3.3 * cells;
   std::vector<PlanStep> steps;
@@ -69,49 +70,66 @@ std::vector<PlanStep> plan(const Scene& s) {
   };
 
   add("read-mri", n.patient || n.mriValues,
-      n.patient ? (n.mriValues ? "the contours lie on it; vessels and overlays show it" : "the contours lie on its grid")
-                : (n.mriValues ? "the overlays need something to warp" : "the body does not come from an image, and no picture is asked for"),
+      n.patient
+          ? (n.mriValues ? "the contours lie on it; vessels and overlays show it" : "the contours lie on its grid")
+          : (n.mriValues ? "the overlays need something to warp"
+                         : "the body does not come from an image, and no picture is asked for"),
       n.patient ? 1.0 : 0.1, 100);
   add("read-roi", n.patient || s.geometry.kind == GeometrySpec::Kind::Mask,
       s.geometry.kind == GeometrySpec::Kind::Box ? "the body is a box" : "it outlines the body", 0.1, 20);
   add("read-mre", n.mre, n.mre ? "the stiffness comes from it" : "the material is not \"mre\"", 0.5, 20);
-  add("measure-stiffness", n.mre, n.mre ? "statistics of the region of interest go into the record" : "no elastogram is used", 0.05);
+  add("measure-stiffness", n.mre,
+      n.mre ? "statistics of the region of interest go into the record" : "no elastogram is used", 0.05);
   add("read-map", n.map, n.map ? "the modulus of each voxel comes from it" : "the material is not a map", 0.1);
   add("vessels", n.vessels,
-      n.vessels ? "they are the landmarks that are compared"
-      : n.patient ? "neither vessels nor pictures are asked for" : "there is no contrast-enhanced image to find them in",
+      n.vessels   ? "they are the landmarks that are compared"
+      : n.patient ? "neither vessels nor pictures are asked for"
+                  : "there is no contrast-enhanced image to find them in",
       6.0, 300);
-  add("liver-surface", n.liverSurface, n.liverSurface ? "the 3-D picture shows it" : "no picture is asked for", 1.0, 50);
-  add("mesh", true, "about " + std::to_string(static_cast<long long>(cells)) + " cells, " +
-                        std::to_string(static_cast<long long>(dofs)) + " degrees of freedom", 0.1, 40e-6 * cells);
-  add("assembled-stiffness-matrix", n.sofa, n.sofa ? "it is exported beside the SOFA node"
-                                                   : "one modulus per voxel is enough: K is applied, not stored", 1.0, 2000e-6 * cells);
-  add("mesh-free-frames", n.meshfree, n.meshfree ? "the model is mesh-free" : "the model is voxel finite elements", 2.0, 100);
-  add("mass-matrix", n.mass || n.sofa, n.mass ? "the analysis is dynamic" : n.sofa ? "it is exported beside the SOFA node"
-                                              : "the analysis is static: inertia plays no part", 0.1);
-  add("damping", n.damping, n.damping ? "Rayleigh damping is given" : n.timeSteps ? "both Rayleigh coefficients are 0" : "the analysis is static");
+  add("liver-surface", n.liverSurface, n.liverSurface ? "the 3-D picture shows it" : "no picture is asked for", 1.0,
+      50);
+  add("mesh", true,
+      "about " + std::to_string(static_cast<long long>(cells)) + " cells, " +
+          std::to_string(static_cast<long long>(dofs)) + " degrees of freedom",
+      0.1, 40e-6 * cells);
+  add("assembled-stiffness-matrix", false, "one modulus per voxel is enough: K is applied, not stored");
+  add("mesh-free-frames", n.meshfree, n.meshfree ? "the model is mesh-free" : "the model is voxel finite elements", 2.0,
+      100);
+  add("mass-matrix", n.mass, n.mass ? "the analysis is dynamic" : "the analysis is static: inertia plays no part", 0.1);
+  add("damping", n.damping,
+      n.damping     ? "Rayleigh damping is given"
+      : n.timeSteps ? "both Rayleigh coefficients are 0"
+                    : "the analysis is static");
   add("solve", !n.timeSteps, n.timeSteps ? "the time steps lead to the answer" : "K u = f once", solve_s, solve_MB);
-  add("time-steps", n.timeSteps, n.timeSteps ? "implicit Euler to " + std::to_string(s.setup.analysis.end_s) + " s"
-                                             : "only the steady state is asked for", solve_s * s.setup.analysis.end_s * 1e3 / s.setup.analysis.h_ms, solve_MB);
-  add("large-deformation", n.newton, n.newton ? "the kinematics are not linear" : "the kinematics are linear", 10 * solve_s, 2 * solve_MB);
+  add("time-steps", n.timeSteps,
+      n.timeSteps ? "implicit Euler to " + std::to_string(s.setup.analysis.end_s) + " s"
+                  : "only the steady state is asked for",
+      solve_s * s.setup.analysis.end_s * 1e3 / s.setup.analysis.h_ms, solve_MB);
+  add("large-deformation", n.newton, n.newton ? "the kinematics are not linear" : "the kinematics are linear",
+      10 * solve_s, 2 * solve_MB);
   add("discretisation-error", n.discretisation,
-      n.discretisation ? "the answer says how far its cells let it be believed: a second solve on cells of twice the edge"
-                       : "estimated for static, linear scenes on voxels only",
+      n.discretisation
+          ? "the answer says how far its cells let it be believed: a second solve on cells of twice the edge"
+          : "estimated for static, linear scenes on voxels only",
       n.meshfree ? 1.2 * solve_s : 0.15 * solve_s, solve_MB / 8);
-  add("condensed-response", n.condensed, n.condensed ? "the solver is \"condensed\"" : "one load case: a response matrix would not pay");
+  add("condensed-response", n.condensed,
+      n.condensed ? "the solver is \"condensed\"" : "one load case: a response matrix would not pay");
   add("atlas-solve", n.compare,
       n.compare ? "the same load on the textbook stiffness; left out where the answer follows from the first"
-                : "no comparison is asked for", solve_s, solve_MB);
-  add("difference", n.compare, n.compare ? "how far apart the two place the same tissue" : "no comparison is asked for", 0.01);
+                : "no comparison is asked for",
+      solve_s, solve_MB);
+  add("difference", n.compare, n.compare ? "how far apart the two place the same tissue" : "no comparison is asked for",
+      0.01);
   add("strain", n.strain, "every result says whether linear theory can be trusted", 1e-7 * cells);
-  add("cell-displacements", n.cellField, n.cellField ? "overlays, comparison or the field itself need them"
-                                                     : "only probes and sums are asked for", 1e-8 * cells);
+  add("cell-displacements", n.cellField,
+      n.cellField ? "overlays, comparison or the field itself need them" : "only probes and sums are asked for",
+      1e-8 * cells);
   add("write-displacement-field", s.outputs.displacementField,
       s.outputs.displacementField ? "asked for" : "not asked for", 0.1);
   add("slice-overlay", n.pictures, n.pictures ? "asked for" : "no picture is asked for", 1.0, 50);
   add("3d-overlay", n.pictures, n.pictures ? "asked for" : "no picture is asked for: no OpenGL is started", 4.0, 200);
   add("report", n.report, n.report ? "asked for" : "not asked for", 0.2);
-  add("sofa", n.sofa, n.sofa ? "asked for" : "not asked for", 1.0);
+  add("sofa", false, n.sofa ? "asked for, but this version does not write SOFA scenes yet" : "not asked for");
   return steps;
 }
 

@@ -9,10 +9,10 @@ namespace glisson::pipeline {
 
 /// One step that a scene needs, or leaves out, and why.
 struct PlanStep {
-  std::string step;     ///< "read-mri", "rasterise-roi", "assemble-mass", ...
+  std::string step;  ///< "read-mri", "rasterise-roi", "assemble-mass", ...
   bool needed = false;
   std::string why;
-  double seconds = 0.0; ///< predicted by plan(), measured after run()
+  double seconds = 0.0;  ///< predicted by plan(), measured after run()
   double peak_MB = 0.0;
 };
 

@@ -21,10 +21,14 @@ Json toJson(const Eigen::Vector3d& v) {
 }
 
 Json solverToJson(const mechanics::SolveReport& s) {
-  return {{"kind", s.kind},         {"why", s.why},
-          {"iterations", s.iterations}, {"residual", s.residual},
-          {"tolerance", s.tolerance},   {"converged", s.converged()},
-          {"status", mechanics::describe(s.status)}, {"seconds", s.seconds}};
+  return {{"kind", s.kind},
+          {"why", s.why},
+          {"iterations", s.iterations},
+          {"residual", s.residual},
+          {"tolerance", s.tolerance},
+          {"converged", s.converged()},
+          {"status", mechanics::describe(s.status)},
+          {"seconds", s.seconds}};
 }
 
 Json resultToJson(const retraction::Result& r, const Scene& scene) {

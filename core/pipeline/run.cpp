@@ -80,7 +80,8 @@ class Steps {
 
 /// The retraction of a body whose every modulus is 1/factor of the other's, nothing but clamps holding it: u ∝ 1/E.
 /// Only for loads that do not depend on the stiffness and supports that are fixed at zero.
-bool followsByScaling(const Scene& scene, const retraction::Model& model, const retraction::Model& atlas, double& factor) {
+bool followsByScaling(const Scene& scene, const retraction::Model& model, const retraction::Model& atlas,
+                      double& factor) {
   if (scene.setup.kinematics != retraction::Kinematics::Linear || scene.setup.analysis.dynamic) return false;
   for (const retraction::SupportSpec& s : scene.setup.supports)
     if (s.kind == retraction::SupportSpec::Kind::Spring || s.displacement_mm != Eigen::Vector3d::Zero()) return false;
@@ -111,10 +112,13 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     loaded = loadInputs(scene, progress.part(0.0, 0.05));
   const Inputs& inputs = given ? *given : loaded;
   r.warnings = inputs.warnings;
+  if (needs.sofa)
+    r.warnings.push_back("\"sofa\" was asked for, but this version does not write SOFA scenes: nothing was exported");
   steps.noteReading(given ? std::vector<std::pair<std::string, double>>{} : inputs.seconds);
 
   steps.run("measure-stiffness", [&](const Progress&) {
-    if (!inputs.stiffness || !inputs.roiOnMre) throw BadArgument("run: no elastogram or no region of interest was loaded");
+    if (!inputs.stiffness || !inputs.roiOnMre)
+      throw BadArgument("run: no elastogram or no region of interest was loaded");
     elastography::MeasureOptions measureOptions;
     measureOptions.poisson = scene.setup.poisson;
     r.stiffness = elastography::measure(*inputs.stiffness, inputs.roiOnMre->mask, measureOptions);
@@ -158,9 +162,8 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     r.difference = comparison::compare(r.model, r.primary, *r.atlas, vessels.centreline_lps_mm);
   });
   if (needs.pictures) {
-    steps.run("liver-surface", [&](const Progress&) {
-      r.picture = detail::retractionScene(scene, inputs, cells, r, vessels);
-    });
+    steps.run("liver-surface",
+              [&](const Progress&) { r.picture = detail::retractionScene(scene, inputs, cells, r, vessels); });
   }
   if (!options.output.empty()) {
     detail::Writer writer(options.output, r.files);

@@ -24,22 +24,23 @@ struct RunOptions {
 
 /// What one run gives. What was not asked for is empty.
 struct RunResult {
-  std::vector<PlanStep> plan;                               ///< with the seconds each step took
+  std::vector<PlanStep> plan;  ///< with the seconds each step took
   retraction::Model model;
-  retraction::Result primary;                               ///< with the scene's own material
-  std::optional<retraction::Result> atlas;                  ///< where the scene compares
+  retraction::Result primary;                                     ///< with the scene's own material
+  std::optional<retraction::Result> atlas;                        ///< where the scene compares
   std::optional<retraction::DiscretisationError> discretisation;  ///< of primary
   std::optional<comparison::Difference> difference;
-  std::vector<Eigen::Vector3d> landmarks_mm;                ///< vessel centrelines at rest, LPS
-  std::optional<elastography::Measurement> stiffness;        ///< over the region of interest, where MRE is used
-  std::optional<render::RetractionScene> picture;           ///< what the overlays draw, where they are asked for
-  std::vector<std::filesystem::path> files;                 ///< everything written, run.json first
+  std::vector<Eigen::Vector3d> landmarks_mm;           ///< vessel centrelines at rest, LPS
+  std::optional<elastography::Measurement> stiffness;  ///< over the region of interest, where MRE is used
+  std::optional<render::RetractionScene> picture;      ///< what the overlays draw, where they are asked for
+  std::vector<std::filesystem::path> files;            ///< everything written, run.json first
   std::vector<std::string> warnings;
-  std::string json;                                         ///< the run record, as in contract.md
+  std::string json;  ///< the run record, as in contract.md
 };
 
 /// Does everything the plan says. inputs: already loaded (the workstation), else read from the scene's files.
 /// Throws BadInput, SolverFailed (nothing converged), Cancelled.
-RunResult run(const Scene& scene, const RunOptions& options, const Progress& progress = {}, const Inputs* inputs = nullptr);
+RunResult run(const Scene& scene, const RunOptions& options, const Progress& progress = {},
+              const Inputs* inputs = nullptr);
 
 }  // namespace glisson::pipeline

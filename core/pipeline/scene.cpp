@@ -67,7 +67,8 @@ void readPoissonAndDensity(JsonObject& o, Setup& setup) {
   setup.poisson = o.number("poisson", defaults::poisson);
   if (!(setup.poisson > -1.0 && setup.poisson < 0.5))
     o.fail("poisson", "is " + std::to_string(setup.poisson) +
-                          "; Poisson's ratio must lie between -1 and 0.5 (0.5 itself is incompressible; 0.499 is as close as makes sense)");
+                          "; Poisson's ratio must lie between -1 and 0.5 (0.5 itself is incompressible; 0.499 is as "
+                          "close as makes sense)");
   setup.density =
       Density::fromKgPerM3(positive(o, "density_kg_m3", o.number("density_kg_m3", defaults::liverDensity.kgPerM3())));
 }
@@ -104,15 +105,15 @@ MaterialSpec readMaterial(JsonObject& scene, Setup& setup, const std::filesystem
 }
 
 retraction::Region readRegion(JsonObject o, const std::filesystem::path& folder) {
-  const int given = int{o.has("face")} + int{o.has("surface")} + int{o.has("box_mm")} + int{o.has("plane")} +
-                    int{o.has("mask")};
+  const int given =
+      int{o.has("face")} + int{o.has("surface")} + int{o.has("box_mm")} + int{o.has("plane")} + int{o.has("mask")};
   if (given != 1) o.fail("give exactly one of face, surface, box_mm, plane, mask");
   retraction::Region region;
   if (o.has("face")) {
     region = retraction::FaceRegion{o.word("face", {"x-", "x+", "y-", "y+", "z-", "z+"})};
   } else if (o.has("surface")) {
-    region = retraction::SurfaceRegion{o.word(
-        "surface", {"posterior", "anterior", "superior", "inferior", "left", "right", "outer", "inner", "all"})};
+    region = retraction::SurfaceRegion{
+        o.word("surface", {"posterior", "anterior", "superior", "inferior", "left", "right", "outer", "inner", "all"})};
   } else if (o.has("box_mm")) {
     const std::vector<Eigen::Vector3d> corners = o.vectors3("box_mm");
     if (corners.size() != 2) o.fail("box_mm", "must be two corners [[x,y,z],[x,y,z]]");
@@ -264,6 +265,7 @@ mechanics::SolverOptions readSolver(JsonObject o) {
   s.iterations = o.integer("iterations", 0);
   if (s.iterations < 0) o.fail("iterations", "must not be negative");
   s.tolerance = positive(o, "tolerance", o.number("tolerance", s.tolerance));
+  if (s.tolerance >= 1.0) o.fail("tolerance", "is the relative residual to reach: it must be below 1, e.g. 1e-8");
   if (kind == "cg") {
     const std::string p = o.word("preconditioner", {"none", "jacobi", "block-jacobi"}, "jacobi");
     s.preconditioner = p == "none"     ? mechanics::Preconditioner::None
@@ -306,8 +308,9 @@ OutputSpec readOutputs(JsonObject& scene) {
       else if (item == "sofa")
         out.sofa = true;
       else
-        scene.fail("outputs", "holds \"" + item.get<std::string>() +
-                                  "\"; known are displacement-field, vessels, overlay, report, sofa and {\"probe\": [[x,y,z]]}");
+        scene.fail("outputs",
+                   "holds \"" + item.get<std::string>() +
+                       "\"; known are displacement-field, vessels, overlay, report, sofa and {\"probe\": [[x,y,z]]}");
     }
   }
   // Objects in the list: probes.
@@ -354,7 +357,8 @@ Scene parseScene(const std::string& text, const std::filesystem::path& folder) {
   if (o.has("compare")) s.compare = readCompare(o.object("compare"));
   s.outputs = readOutputs(o);
   const double seed = o.number("seed", 1);
-  if (seed < 0 || seed != std::floor(seed) || seed > 9e15) o.fail("seed", "must be a whole number that is not negative");
+  if (seed < 0 || seed != std::floor(seed) || seed > 9e15)
+    o.fail("seed", "must be a whole number that is not negative");
   s.setup.seed = static_cast<std::uint64_t>(seed);
   s.setup.model.meshfree.seed = s.setup.seed;
   s.setup.solver.element = s.setup.model.element;

@@ -26,10 +26,10 @@ struct GeometrySpec {
 /// Where the stiffness comes from.
 struct MaterialSpec {
   enum class Kind { Uniform, Map, Mre, Atlas } kind = Kind::Atlas;
-  double value_kPa = 0.0;                             ///< Uniform
+  double value_kPa = 0.0;  ///< Uniform
   StiffnessQuantity quantity = StiffnessQuantity::Youngs;
-  std::filesystem::path map;                          ///< Map
-  std::string unit = "kPa";                           ///< Map: "Pa", "kPa" or "<factor>kPa"
+  std::filesystem::path map;  ///< Map
+  std::string unit = "kPa";   ///< Map: "Pa", "kPa" or "<factor>kPa"
 };
 
 /// What is asked for. Nothing that is not asked for is computed.
@@ -54,8 +54,8 @@ struct Scene {
   std::filesystem::path folder;  ///< relative paths of the file are resolved against this
 };
 
-/// Reads and checks a scene file. Comments (// and /* */) are allowed. Throws BadInput that names the key and the line for
-/// an unknown key, a wrong type or unit, a missing file or key.
+/// Reads and checks a scene file. Comments (// and /* */) are allowed. Throws BadInput that names the key and the line
+/// for an unknown key, a wrong type or unit, a missing file or key.
 Scene readScene(const std::filesystem::path& file);
 
 /// The same from text; folder resolves relative paths.

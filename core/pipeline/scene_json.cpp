@@ -7,7 +7,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json toJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Json toJson(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 /// Relative to the scene's folder where the file lies below it, so that a case can be moved.
 std::string pathText(const std::filesystem::path& p, const std::filesystem::path& folder) {
@@ -75,8 +77,8 @@ struct RegionToJson {
     return {{"box_mm", Json::array({toJson(r.low_mm), toJson(r.high_mm)})}};
   }
   Json operator()(const retraction::PlaneRegion& r) const {
-    return {{"plane",
-             {{"point_mm", toJson(r.point_mm)}, {"normal", toJson(r.normal)}, {"tolerance_mm", r.tolerance_mm}}}};
+    return {
+        {"plane", {{"point_mm", toJson(r.point_mm)}, {"normal", toJson(r.normal)}, {"tolerance_mm", r.tolerance_mm}}}};
   }
   Json operator()(const retraction::MaskRegion& r) const {
     Json j = {{"mask", pathText(r.file, folder)}};
@@ -115,7 +117,8 @@ struct LoadToJson {
     return {{"kind", "pressure"}, {"region", std::visit(RegionToJson{folder}, l.region)}, {"kPa", l.kPa}};
   }
   Json operator()(const retraction::Retractor& l) const {
-    Json j = {{"kind", "retractor"}, {"diameter_mm", l.diameter_mm}, {"length_mm", l.length_mm}, {"spread_mm", l.spread_mm}};
+    Json j = {
+        {"kind", "retractor"}, {"diameter_mm", l.diameter_mm}, {"length_mm", l.length_mm}, {"spread_mm", l.spread_mm}};
     j["at"] = l.at_mm ? toJson(*l.at_mm) : Json("inferior-right-lobe");
     j["force"] = l.force_N ? Json(*l.force_N) : Json("liver-weight");
     j["direction"] = toJson(l.direction);
@@ -130,7 +133,8 @@ Json toJson(const retraction::ModelSpec& m) {
             {"frames", m.meshfree.frames},
             {"kernel", m.meshfree.kernel == mechanics::Kernel::Voronoi ? "voronoi" : "wendland"},
             {"order", m.meshfree.order}};
-  if (m.kind == retraction::ModelKind::FemTet) return {{"kind", "fem-tet"}, {"element", m.quadraticTets ? "T10" : "T4"}};
+  if (m.kind == retraction::ModelKind::FemTet)
+    return {{"kind", "fem-tet"}, {"element", m.quadraticTets ? "T10" : "T4"}};
   const char* element = m.element == mechanics::HexElement::H8     ? "H8"
                         : m.element == mechanics::HexElement::BBar ? "H8-Bbar"
                                                                    : "H8-incompatible";
@@ -150,7 +154,7 @@ Json solverToJson(const retraction::Setup& s) {
   using mechanics::Preconditioner;
   using mechanics::SolverKind;
   Json j;
-  j["kind"] = s.condensed                                    ? "condensed"
+  j["kind"] = s.condensed                               ? "condensed"
               : s.solver.kind == SolverKind::Cg         ? "cg"
               : s.solver.kind == SolverKind::Factorised ? "factorised"
               : s.solver.kind == SolverKind::Multigrid  ? "multigrid"
@@ -183,9 +187,9 @@ std::string toJson(const Scene& scene) {
   j["analysis"] = toJson(s.analysis);
   j["solver"] = solverToJson(s);
   if (scene.compare)
-    j["compare"] = {{"against", "atlas"},
-                    {scene.compare->quantity == StiffnessQuantity::Shear ? "shear_kPa" : "youngs_kPa",
-                     scene.compare->value_kPa}};
+    j["compare"] = {
+        {"against", "atlas"},
+        {scene.compare->quantity == StiffnessQuantity::Shear ? "shear_kPa" : "youngs_kPa", scene.compare->value_kPa}};
   Json outputs = Json::array();
   if (!scene.outputs.probes_mm.empty()) {
     Json points = Json::array();

@@ -20,7 +20,9 @@ std::string lowerExtension(const std::filesystem::path& p) {
   return e;
 }
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& from) { to.insert(to.end(), from.begin(), from.end()); }
+void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
 
 void noteSkipped(const dicom::ScanResult& scan, std::vector<std::string>& warnings) {
   for (const dicom::SkippedFile& f : scan.skipped)
@@ -69,11 +71,13 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
                    (scan.skipped.empty() ? "" : ": " + scan.skipped.front().reason));
   const dicom::Series& series = seriesFor(scan, dicom::SeriesRole::Stiffness);
   if (series.colour)
-    throw BadInput("the series '" + series.description + "' is in colour: a coloured elastogram is not a stiffness map; "
+    throw BadInput("the series '" + series.description +
+                   "' is in colour: a coloured elastogram is not a stiffness map; "
                    "choose the grey-scale stiffness series");
   const std::optional<std::string> unit = meaning.unit ? meaning.unit : series.unit;
   if (!unit)
-    throw BadInput("the series '" + series.description + "' does not say in which unit its stiffness is; give the unit (Pa, kPa or <factor>kPa)");
+    throw BadInput("the series '" + series.description +
+                   "' does not say in which unit its stiffness is; give the unit (Pa, kPa or <factor>kPa)");
   // MR elastography reports the shear modulus unless told otherwise.
   out.map = elastography::makeStiffnessMap(dicom::readSeries(series, progress.part(0.4, 0.8)),
                                            meaning.quantity.value_or(StiffnessQuantity::Shear), *unit);
@@ -119,6 +123,8 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
     out.contours = elastography::roiFromStructures(set, name);
     if (out.contours->frameOfReferenceUid.empty()) out.contours->frameOfReferenceUid = set.frameOfReferenceUid;
   }
+  if (label != 0 && !out.mask)
+    out.warnings.push_back("a label picks a value of a mask; these are contours: it was not used");
   return out;
 }
 

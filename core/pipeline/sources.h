@@ -38,9 +38,10 @@ struct LoadedStiffness {
   std::vector<std::string> warnings;
 };
 
-/// A DICOM folder (its stiffness series, and its confidence series where it has one) or a bare map, for which quantity and
-/// unit must be given. Throws BadInput, asking for them where they are missing.
-LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeaning& meaning, const Progress& progress = {});
+/// A DICOM folder (its stiffness series, and its confidence series where it has one) or a bare map, for which quantity
+/// and unit must be given. Throws BadInput, asking for them where they are missing.
+LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeaning& meaning,
+                              const Progress& progress = {});
 
 /// A region of interest as it came: polygons (contour JSON, RT Structure Set) or voxels (NIfTI, NRRD, MHA).
 struct LoadedRoi {
@@ -52,12 +53,13 @@ struct LoadedRoi {
 /// name: structure to take; empty = found by its name. label: of a label map, 0 = any.
 LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, int label, const Progress& progress = {});
 
-/// Fills empty slices between outlined ones by shape, where the region came as polygons (roi/interpolate.h). Returns what
-/// to tell the user, empty where every slice between the first and the last outlined one holds an outline that was drawn.
+/// Fills empty slices between outlined ones by shape, where the region came as polygons (roi/interpolate.h). Returns
+/// what to tell the user, empty where every slice between the first and the last outlined one holds an outline that was
+/// drawn.
 std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& mriGrid);
 
-/// The region of interest on the grid of the elastogram. mriGrid: of the image that polygons were drawn on, where known:
-/// then outlines are completed first, so that an MRE slice on an undrawn MRI slice gets the interpolated region.
+/// The region of interest on the grid of the elastogram. mriGrid: of the image that polygons were drawn on, where
+/// known: then outlines are completed first, so that an MRE slice on an undrawn MRI slice gets the interpolated region.
 elastography::MappedRoi mapRoi(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
                                const elastography::StiffnessMap& map);
 

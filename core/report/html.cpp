@@ -15,11 +15,20 @@ std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -32,14 +41,14 @@ std::string base64(const std::string& bytes) {
     unsigned int group = 0;
     for (std::size_t b = 0; b < 3; ++b)
       group = (group << 8) | (i + b < bytes.size() ? static_cast<unsigned char>(bytes[i + b]) : 0u);
-    for (unsigned int c = 0; c < 4; ++c)
-      out += i + c > bytes.size() ? '=' : letters[(group >> (18 - 6 * c)) & 63u];
+    for (unsigned int c = 0; c < 4; ++c) out += i + c > bytes.size() ? '=' : letters[(group >> (18 - 6 * c)) & 63u];
   }
   return out;
 }
 
 constexpr const char* style =
-    "body{font:16px/1.5 system-ui,'DejaVu Sans',sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#1b1f24}"
+    "body{font:16px/1.5 system-ui,'DejaVu Sans',sans-serif;max-width:62rem;margin:2rem auto;padding:0 "
+    "1rem;color:#1b1f24}"
     "h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2rem;border-bottom:1px solid #d0d7de}"
     "table{border-collapse:collapse}td{padding:.2rem 1.2rem .2rem 0;vertical-align:top;border-bottom:1px solid #eaeef2}"
     "td:last-child{font-variant-numeric:tabular-nums}figure{margin:1rem 0}img{max-width:100%}"
@@ -49,9 +58,13 @@ constexpr const char* style =
 
 HtmlReport::HtmlReport(std::string title) : title_(std::move(title)) {}
 
-void HtmlReport::heading(const std::string& text) { body_ += "<h2>" + escaped(text) + "</h2>\n"; }
+void HtmlReport::heading(const std::string& text) {
+  body_ += "<h2>" + escaped(text) + "</h2>\n";
+}
 
-void HtmlReport::paragraph(const std::string& text) { body_ += "<p>" + escaped(text) + "</p>\n"; }
+void HtmlReport::paragraph(const std::string& text) {
+  body_ += "<p>" + escaped(text) + "</p>\n";
+}
 
 void HtmlReport::list(const std::vector<std::string>& items) {
   body_ += "<ul>\n";
@@ -87,10 +100,13 @@ std::string number(double value, int significant) {
   return text;
 }
 
-Csv::Csv(const std::vector<std::string>& header) : columns_(header.size()) { row(header); }
+Csv::Csv(const std::vector<std::string>& header) : columns_(header.size()) {
+  row(header);
+}
 
 void Csv::row(const std::vector<std::string>& cells) {
-  if (cells.size() != columns_) throw BadArgument("Csv: a row has " + std::to_string(cells.size()) + " cells, not " + std::to_string(columns_));
+  if (cells.size() != columns_)
+    throw BadArgument("Csv: a row has " + std::to_string(cells.size()) + " cells, not " + std::to_string(columns_));
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (i) text_ += ',';
     if (cells[i].find_first_of(",\"\n") == std::string::npos) {

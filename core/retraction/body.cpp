@@ -61,6 +61,10 @@ Eigen::Vector3d Body::toLocal_m(const Eigen::Vector3d& p_mm) const {
   return (grid_.lpsToIndex(p_mm) + Eigen::Vector3d::Constant(0.5)).cwiseProduct(voxels_.h_m);
 }
 
+Eigen::Vector3d Body::toLps_mm(const Eigen::Vector3d& p_m) const {
+  return grid_.indexToLps(p_m.cwiseQuotient(voxels_.h_m) - Eigen::Vector3d::Constant(0.5));
+}
+
 std::string Body::name(const Region& region) {
   struct Name {
     std::string operator()(const FaceRegion& r) const { return "face \"" + r.face + "\""; }
@@ -125,8 +129,7 @@ std::vector<const SurfaceFace*> Body::faces(const Region& region) const {
   }
   if (out.empty())
     throw BadInput("region " + name(region) + " holds no part of the body's surface" +
-                   (std::holds_alternative<SurfaceRegion>(region) &&
-                            std::get<SurfaceRegion>(region).surface == "inner"
+                   (std::holds_alternative<SurfaceRegion>(region) && std::get<SurfaceRegion>(region).surface == "inner"
                         ? "; the body has no enclosed cavity"
                         : "; check its place (mm, LPS for masks and patients)"));
   return out;
@@ -151,7 +154,8 @@ std::vector<int> Body::nodes(const Region& region) const {
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   if (out.empty())
-    throw BadInput("region " + name(region) + " holds no node of the body; check its place (mm, LPS for masks and patients)");
+    throw BadInput("region " + name(region) +
+                   " holds no node of the body; check its place (mm, LPS for masks and patients)");
   return out;
 }
 

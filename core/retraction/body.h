@@ -13,12 +13,12 @@ namespace glisson::retraction {
 
 /// One voxel face on the surface of the body.
 struct SurfaceFace {
-  mechanics::Face face;        ///< of the mesh, in the grid's own axes
-  std::array<int, 4> nodes{};  ///< of the mesh
+  mechanics::Face face;                                 ///< of the mesh, in the grid's own axes
+  std::array<int, 4> nodes{};                           ///< of the mesh
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  ///< LPS
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();     ///< outward, LPS
   double area_m2 = 0.0;
-  bool cavity = false;         ///< borders an enclosed cavity
+  bool cavity = false;  ///< borders an enclosed cavity
 };
 
 /// The meshed body: the one place where the imaging rooms' mm, kPa and LPS become mechanics' m, Pa and grid axes.
@@ -33,6 +33,8 @@ class Body {
   Eigen::Vector3d nodePosition_mm(int node) const;
   /// Continuous lattice position in metres, grid axes, of a point in mm (LPS).
   Eigen::Vector3d toLocal_m(const Eigen::Vector3d& p_mm) const;
+  /// The reverse of toLocal_m.
+  Eigen::Vector3d toLps_mm(const Eigen::Vector3d& p_m) const;
   Eigen::Vector3d vectorToLocal(const Eigen::Vector3d& v_lps) const { return direction_.transpose() * v_lps; }
   Eigen::Vector3d vectorToLps(const Eigen::Vector3d& v_local) const { return direction_ * v_local; }
 
@@ -59,7 +61,7 @@ struct Contact {
   std::vector<const SurfaceFace*> faces;
   std::vector<double> share;  ///< adds up to 1
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
-  double area_mm2 = 0.0;      ///< as seen along the hoist
+  double area_mm2 = 0.0;  ///< as seen along the hoist
 };
 
 /// The bar lies against the surface at `at_mm`, across the hoist. It pushes on the connected faces under it that look
@@ -67,16 +69,23 @@ struct Contact {
 /// Gaussian. Throws BadInput ("no contact") where `at_mm` is further from such a face than the bar is thick.
 Contact findContact(const Body& body, const Retractor& retractor, const Eigen::Vector3d& at_mm);
 
-/// Where the bar is laid when no point is given. It starts at the inferior point of the right lobe (anatomy) and is moved up
-/// along z, one cell at a time and 80 mm at most, to the first height at which the faces under the bar, seen along the
-/// hoist, cover at least nine tenths of it; where none does, to the height with the largest cover. Its middle is the centroid of
-/// those faces. Throws BadInput where no face looks against the hoist.
+/// Where the bar is laid when no point is given. It starts at the inferior point of the right lobe (anatomy) and is
+/// moved up along z, one cell at a time and 80 mm at most, to the first height at which the faces under the bar, seen
+/// along the hoist, cover at least nine tenths of it; where none does, to the height with the largest cover. Its middle
+/// is the centroid of those faces. Throws BadInput where no face looks against the hoist.
 Eigen::Vector3d findHoistPoint(const Body& body, const Retractor& retractor, const Eigen::Vector3d& inferior_mm);
+
+/// A uniform traction on one voxel face, Pa, grid axes.
+struct FaceTraction {
+  mechanics::Face face;
+  Eigen::Vector3d traction_Pa;
+};
 
 /// The scene as a mechanics problem, with what is needed to read the answer back.
 struct MechanicsScene {
   mechanics::Problem problem;
-  std::vector<mechanics::NodalField> loads_N;  ///< one per load of the setup; their sum is problem.f_N
+  std::vector<mechanics::NodalField> loads_N;        ///< one per load of the setup; their sum is problem.f_N
+  std::vector<std::vector<FaceTraction>> tractions;  ///< per load: what it puts on which face; empty for body forces
   std::optional<Contact> contact;
 };
 

@@ -10,7 +10,8 @@ namespace glisson::retraction {
 namespace {
 
 /// Reactions and energy that belong to a displacement: what the supports must do for K u = f.
-void completeSolution(const mechanics::VoxelOperator& voxels, const mechanics::NodalField& f_N, mechanics::Solution& s) {
+void completeSolution(const mechanics::VoxelOperator& voxels, const mechanics::NodalField& f_N,
+                      mechanics::Solution& s) {
   const mechanics::NodalField internal_N = voxels.applyFree(s.u_m);
   const mechanics::NodalField spring_N = voxels.springForce(s.u_m);
   s.reaction_N = spring_N;
@@ -21,7 +22,9 @@ void completeSolution(const mechanics::VoxelOperator& voxels, const mechanics::N
   s.energy_J = 0.5 * (s.u_m.cwiseProduct(internal_N).sum() - s.u_m.cwiseProduct(spring_N).sum());
 }
 
-mechanics::NodalField asField(const Eigen::VectorXd& u) { return Eigen::Map<const mechanics::NodalField>(u.data(), 3, u.size() / 3); }
+mechanics::NodalField asField(const Eigen::VectorXd& u) {
+  return Eigen::Map<const mechanics::NodalField>(u.data(), 3, u.size() / 3);
+}
 
 }  // namespace
 
@@ -72,7 +75,8 @@ CondensedAnswer solveCondensed(const mechanics::Problem& problem, const std::vec
   }
   answer.solution.u_m = asField(u_m);
   answer.solution.report.kind = "condensed";
-  answer.solution.report.why = "asked for: " + std::to_string(inputs.size()) + " load column(s) of the full voxel model";
+  answer.solution.report.why =
+      "asked for: " + std::to_string(inputs.size()) + " load column(s) of the full voxel model";
   completeSolution(solver.voxels(), problem.f_N, answer.solution);
   return answer;
 }

@@ -45,7 +45,9 @@ Eigen::Vector3d findHoistPoint(const Body& body, const Retractor& retractor, con
     }
     if (cover >= 0.9 * retractor.length_mm * retractor.diameter_mm) break;
   }
-  if (bestCover == 0.0) throw BadInput("no contact: no surface near the inferior right lobe looks against the hoist; give \"at\" as a point");
+  if (bestCover == 0.0)
+    throw BadInput(
+        "no contact: no surface near the inferior right lobe looks against the hoist; give \"at\" as a point");
   // The centroid of a curved patch may lie inside the body: the nearest face under the bar stands in.
   const SurfaceFace* nearest = nullptr;
   for (const SurfaceFace& f : body.surface())
@@ -92,7 +94,8 @@ Contact findContact(const Body& body, const Retractor& retractor, const Eigen::V
     for (const int node : candidates[i]->nodes) facesOfNode[node].push_back(i);
   std::vector<bool> taken(candidates.size(), false);
   std::queue<std::size_t> todo;
-  const auto start = static_cast<std::size_t>(std::find(candidates.begin(), candidates.end(), first) - candidates.begin());
+  const auto start =
+      static_cast<std::size_t>(std::find(candidates.begin(), candidates.end(), first) - candidates.begin());
   taken[start] = true;
   todo.push(start);
   while (!todo.empty()) {

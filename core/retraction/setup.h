@@ -18,35 +18,55 @@ namespace glisson::retraction {
 
 /// Part of the outer surface (or of the nodes) of the body, in the scene's own words.
 /// face: "x-" ... "z+": the voxel faces on that bounding plane of the body (LPS axes for masks and patients).
-/// surface: "posterior", "anterior", "superior", "inferior", "left", "right" (every outer voxel face whose outward normal
-/// is that direction, wherever it lies), "outer", "inner" (faces of enclosed cavities), "all".
-struct FaceRegion { std::string face; };
-struct SurfaceRegion { std::string surface; };
-struct BoxRegion { Eigen::Vector3d low_mm, high_mm; };                      ///< nodes and faces inside, borders included
-struct PlaneRegion { Eigen::Vector3d point_mm, normal; double tolerance_mm; };  ///< within tolerance of the plane
-struct MaskRegion { std::filesystem::path file; int label = 0; };          ///< what lies in a voxel of the mask (label 0: any)
+/// surface: "posterior", "anterior", "superior", "inferior", "left", "right" (every outer voxel face whose outward
+/// normal is that direction, wherever it lies), "outer", "inner" (faces of enclosed cavities), "all".
+struct FaceRegion {
+  std::string face;
+};
+struct SurfaceRegion {
+  std::string surface;
+};
+struct BoxRegion {
+  Eigen::Vector3d low_mm, high_mm;
+};  ///< nodes and faces inside, borders included
+struct PlaneRegion {
+  Eigen::Vector3d point_mm, normal;
+  double tolerance_mm;
+};  ///< within tolerance of the plane
+struct MaskRegion {
+  std::filesystem::path file;
+  int label = 0;
+};  ///< what lies in a voxel of the mask (label 0: any)
 using Region = std::variant<FaceRegion, SurfaceRegion, BoxRegion, PlaneRegion, MaskRegion>;
 
 struct SupportSpec {
   enum class Kind { Fixed, Spring } kind = Kind::Fixed;
   Region region;
-  std::array<bool, 3> axes = {true, true, true};               ///< Fixed: which components are held
-  Eigen::Vector3d displacement_mm = Eigen::Vector3d::Zero();   ///< Fixed: held at this
-  double stiffness_kPa_per_mm = 0.0;                           ///< Spring: Winkler foundation
-  bool normalOnly = false;                                     ///< Spring: resists along the face normal only
+  std::array<bool, 3> axes = {true, true, true};              ///< Fixed: which components are held
+  Eigen::Vector3d displacement_mm = Eigen::Vector3d::Zero();  ///< Fixed: held at this
+  double stiffness_kPa_per_mm = 0.0;                          ///< Spring: Winkler foundation
+  bool normalOnly = false;                                    ///< Spring: resists along the face normal only
 };
 
-struct BodyForce { Eigen::Vector3d N_per_m3; };
-struct Traction { Region region; Eigen::Vector3d kPa; };
-struct Pressure { Region region; double kPa; };  ///< positive pushes against the outward normal
+struct BodyForce {
+  Eigen::Vector3d N_per_m3;
+};
+struct Traction {
+  Region region;
+  Eigen::Vector3d kPa;
+};
+struct Pressure {
+  Region region;
+  double kPa;
+};  ///< positive pushes against the outward normal
 struct Retractor {
   double diameter_mm = 10.0;
   double length_mm = 80.0;
-  double spread_mm = 10.0;                  ///< tissue wraps round the bar: standard deviation of the pressure beyond it; 0 = bare bar
-  std::optional<Eigen::Vector3d> at_mm;     ///< empty: inferior right lobe, found from geometry
-  std::optional<double> force_N;            ///< empty: the liver's weight
-  Eigen::Vector3d direction{0, -1, 0};      ///< of the hoist, LPS; "transverse" = towards anterior, in the transverse plane
-  Eigen::Vector3d axis{1, 0, 0};            ///< of the bar, LPS
+  double spread_mm = 10.0;  ///< tissue wraps round the bar: standard deviation of the pressure beyond it; 0 = bare bar
+  std::optional<Eigen::Vector3d> at_mm;  ///< empty: inferior right lobe, found from geometry
+  std::optional<double> force_N;         ///< empty: the liver's weight
+  Eigen::Vector3d direction{0, -1, 0};  ///< of the hoist, LPS; "transverse" = towards anterior, in the transverse plane
+  Eigen::Vector3d axis{1, 0, 0};        ///< of the bar, LPS
 };
 using LoadSpec = std::variant<BodyForce, Traction, Pressure, Retractor>;
 
@@ -62,8 +82,8 @@ struct AnalysisSpec {
   bool dynamic = false;
   double h_ms = 1.0;
   double end_s = 2.0;
-  std::array<double, 2> rayleigh = {0.0, 0.0};   ///< alpha 1/s, beta s
-  double stopWhenSteady = 1e-6;                  ///< relative change per step; 0 = never
+  std::array<double, 2> rayleigh = {0.0, 0.0};  ///< alpha 1/s, beta s
+  double stopWhenSteady = 1e-6;                 ///< relative change per step; 0 = never
 };
 
 /// How strain follows from displacement.
@@ -79,7 +99,7 @@ struct Setup {
   Kinematics kinematics = Kinematics::Linear;
   AnalysisSpec analysis;
   mechanics::SolverOptions solver;
-  bool condensed = false;   ///< answer through the condensed response of the full model instead of the solve itself
+  bool condensed = false;  ///< answer through the condensed response of the full model instead of the solve itself
   std::uint64_t seed = 1;
 };
 

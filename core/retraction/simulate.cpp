@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "base/error.h"
 #include "mechanics/dynamics.h"
@@ -57,15 +58,48 @@ void requireOffered(const Setup& setup) {
     throw BadInput("condensed responses are made from voxels: use the model \"fem-hex\"");
 }
 
+/// Tractions on voxel faces as consistent forces on the two triangles of each: a third of a triangle's force to each
+/// corner (T4), to each middle (T10, whose corners take none).
+void addTractions(const Body& body, const mechanics::TetMesh& mesh, const std::vector<FaceTraction>& tractions,
+                  mechanics::NodalField& f_N) {
+  std::map<std::array<int, 3>, mechanics::TetFace> triangles;
+  for (const mechanics::TetFace& t : mechanics::exteriorFaces(mesh)) {
+    const std::vector<int> n = mechanics::nodesOf(mesh, t);
+    std::array<int, 3> key = {n[0], n[1], n[2]};
+    std::sort(key.begin(), key.end());
+    triangles[key] = t;
+  }
+  for (const FaceTraction& traction : tractions) {
+    const std::array<int, 4> corners = mechanics::faceNodes(body.mesh(), traction.face);
+    const Eigen::Vector3d share_N =
+        traction.traction_Pa * mechanics::faceArea_m2(body.mesh(), traction.face.side) / 6.0;
+    int found = 0;
+    for (std::size_t left = 0; left < 4; ++left) {
+      std::array<int, 3> key{};
+      std::size_t at = 0;
+      for (std::size_t c = 0; c < 4; ++c)
+        if (c != left) key[at++] = corners[c];
+      std::sort(key.begin(), key.end());
+      const auto triangle = triangles.find(key);
+      if (triangle == triangles.end()) continue;
+      ++found;
+      const std::vector<int> n = mechanics::nodesOf(mesh, triangle->second);
+      for (std::size_t c = mesh.quadratic() ? 3 : 0; c < n.size(); ++c) f_N.col(n[c]) += share_N;
+    }
+    if (found != 2) throw BadArgument("a voxel face does not consist of two triangles of the tetrahedral mesh");
+  }
+}
+
 Answer solveOnTets(const Body& body, const MechanicsScene& scene, const Setup& setup, const Progress& progress) {
   Answer a;
   const auto order = setup.model.quadraticTets ? mechanics::TetOrder::Quadratic : mechanics::TetOrder::Linear;
   mechanics::TetProblem tets = mechanics::onTetrahedra(scene.problem, order);
-  for (std::size_t i = 0; i < setup.loads.size(); ++i)
-    if (const auto* load = std::get_if<BodyForce>(&setup.loads[i])) {
-      tets.f_N.leftCols(body.mesh().nodeCount()) -= scene.loads_N[i];
+  tets.f_N.setZero();
+  for (std::size_t i = 0; i < setup.loads.size(); ++i) {
+    if (const auto* load = std::get_if<BodyForce>(&setup.loads[i]))
       tets.f_N += mechanics::bodyForce(tets.mesh, body.vectorToLocal(load->N_per_m3));
-    }
+    addTractions(body, tets.mesh, scene.tractions[i], tets.f_N);
+  }
   a.solution = mechanics::solveTets(scene.problem, tets, setup.solver, progress);
   a.dofs = 3 * tets.mesh.nodeCount();
   a.notes.push_back(std::to_string(tets.mesh.tetCount()) + (setup.model.quadraticTets ? " quadratic" : " linear") +
@@ -109,6 +143,8 @@ Answer solve(const Body& body, const MechanicsScene& scene, const Setup& setup, 
     mechanics::DynamicSolution d = mechanics::solveDynamic(problem, dynamicOptions(setup.analysis), options, progress);
     a.steps = d.trajectory.steps;
     a.solution = std::move(d.solution);
+    if (options.kind == mechanics::SolverKind::Factorised || options.kind == mechanics::SolverKind::Multigrid)
+      a.notes.push_back("time steps on voxels are solved by conjugate gradients, whatever solver the scene names");
   } else {
     a.solution = mechanics::solveStatic(problem, options, progress);
   }
@@ -157,8 +193,9 @@ void judge(const Body& body, const mechanics::Solution& s, Result& r) {
   r.drawable = s.report.converged() && !validity.invalid;
   if (r.kinematics == Kinematics::Corotational && m.p95Strain >= 0.10) {
     r.linearTrusted = false;
-    r.validity.push_back("outside corotational theory, whose strains are small: 5 % of the volume strains by more than " +
-                         std::to_string(std::lround(100 * m.p95Strain)) + " % (limit 10 %); use hyperelastic kinematics");
+    r.validity.push_back(
+        "outside corotational theory, whose strains are small: 5 % of the volume strains by more than " +
+        std::to_string(std::lround(100 * m.p95Strain)) + " % (limit 10 %); use hyperelastic kinematics");
   }
   if (!s.report.converged())
     r.validity.insert(r.validity.begin(), "the solve did not converge: " + mechanics::describe(s.report.status) +
@@ -184,13 +221,15 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
   if (scene.contact) {
     r.retractorPoint_mm = scene.contact->centre_mm;
     r.contactArea_mm2 = scene.contact->area_mm2;
-    for (const SurfaceFace* f : scene.contact->faces) r.contactNodes.insert(r.contactNodes.end(), f->nodes.begin(), f->nodes.end());
+    for (const SurfaceFace* f : scene.contact->faces)
+      r.contactNodes.insert(r.contactNodes.end(), f->nodes.begin(), f->nodes.end());
     std::sort(r.contactNodes.begin(), r.contactNodes.end());
     r.contactNodes.erase(std::unique(r.contactNodes.begin(), r.contactNodes.end()), r.contactNodes.end());
   }
   r.probe_u_mm = interpolate(body, s.u_m, probes_mm);
   for (std::size_t i = 0; i < probes_mm.size(); ++i)
-    if (!r.probe_u_mm[i].allFinite()) r.notes.push_back("probe " + std::to_string(i) + " lies outside the body: it has no displacement");
+    if (!r.probe_u_mm[i].allFinite())
+      r.notes.push_back("probe " + std::to_string(i) + " lies outside the body: it has no displacement");
   r.nodal_u_m = std::move(answer.solution.u_m);
   return r;
 }
@@ -205,8 +244,8 @@ Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen:
   return readBack(model, body, scene, setup, solve(body, scene, setup, progress), probes_mm);
 }
 
-Result scaled(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm, const Result& result,
-              double factor) {
+Result scaled(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,
+              const Result& result, double factor) {
   const Body body(model);
   const MechanicsScene scene = toMechanics(body, model, setup);
   Answer answer;

@@ -11,8 +11,8 @@
 
 namespace glisson::retraction {
 
-/// The body of a scene: cells on a grid in the patient frame (a box has its own frame: identity axes, and spans [0, size]).
-/// A cell is a voxel: its centre is the voxel's centre.
+/// The body of a scene: cells on a grid in the patient frame (a box has its own frame: identity axes, and spans [0,
+/// size]). A cell is a voxel: its centre is the voxel's centre.
 struct Model {
   image::ScalarVolume youngs_kPa;  ///< Young's modulus per cell, 0 outside the body
   double poisson = defaults::poisson;
@@ -22,51 +22,51 @@ struct Model {
   double mass_kg = 0.0;
 };
 
-/// Counts cells, volume and mass; throws BadInput naming voxel and slice where a modulus is not usable, or where the body
-/// is not between 0.03 and 0.6 m long and checkSize is set.
+/// Counts cells, volume and mass; throws BadInput naming voxel and slice where a modulus is not usable, or where the
+/// body is not between 0.03 and 0.6 m long and checkSize is set.
 Model makeModel(image::ScalarVolume youngs_kPa, double poisson, Density density, bool checkSize);
 
 /// One simulated retraction, back in mm and the patient frame.
 struct Result {
-  image::DisplacementField u_mm;      ///< at cell centres of the model's grid, 0 outside
-  mechanics::NodalField nodal_u_m;    ///< 3 × nodes, the grid's own axes, m
+  image::DisplacementField u_mm;            ///< at cell centres of the model's grid, 0 outside
+  mechanics::NodalField nodal_u_m;          ///< 3 × nodes, the grid's own axes, m
   std::vector<Eigen::Vector3d> probe_u_mm;  ///< one per probe, LPS
-  std::vector<std::string> notes;     ///< what the model changed, probes that lie outside
+  std::vector<std::string> notes;           ///< what the model changed, probes that lie outside
   int dofs = 0;
-  int steps = 0;                      ///< time steps; 0 when static
+  int steps = 0;  ///< time steps; 0 when static
   mechanics::SolveReport solver;
   Eigen::Vector3d load_N = Eigen::Vector3d::Zero();      ///< sum of applied forces, LPS
   Eigen::Vector3d reaction_N = Eigen::Vector3d::Zero();  ///< sum of support forces, LPS
   double energy_J = 0.0;
-  Kinematics kinematics = Kinematics::Linear;            ///< that were solved
+  Kinematics kinematics = Kinematics::Linear;  ///< that were solved
   /// Largest principal strain, absolute: small strain where the kinematics are linear, else Biot's (free of rotation).
   double max_strain = 0.0, p95_strain = 0.0, p99_strain = 0.0;
-  double fraction_over_10pct = 0.0;   ///< of the volume
+  double fraction_over_10pct = 0.0;  ///< of the volume
   double max_rotation_deg = 0.0;
   double max_displacement_mm = 0.0;
-  /// The verdict on the kinematics used. Linear: strains and rotations are small enough for linear theory. Corotational:
-  /// converged, no inverted cell, and p95 strain below 10 % (its strains are small-strain). Hyperelastic: converged, no
-  /// inverted cell.
+  /// The verdict on the kinematics used. Linear: strains and rotations are small enough for linear theory.
+  /// Corotational: converged, no inverted cell, and p95 strain below 10 % (its strains are small-strain). Hyperelastic:
+  /// converged, no inverted cell.
   bool linearTrusted = false;
   std::vector<std::string> validity;  ///< warnings in words, most serious first
   bool drawable = true;               ///< false: not converged, inverted cells, displacement larger than the body
-  std::optional<Eigen::Vector3d> retractorPoint_mm;      ///< centre of the contact
-  double contactArea_mm2 = 0.0;                          ///< that bears on the liver, seen along the hoist
+  std::optional<Eigen::Vector3d> retractorPoint_mm;  ///< centre of the contact
+  double contactArea_mm2 = 0.0;                      ///< that bears on the liver, seen along the hoist
   std::vector<int> contactNodes;
 };
 
 /// Builds the mechanics problem (the one crossing from mm and kPa to SI) and solves it.
 /// Corotational and hyperelastic kinematics: static, voxel hexahedra. Tetrahedra: static, linear; dofs are those of the
 /// tetrahedra, body forces are consistent with them, all other loads act at the voxel corners.
-/// Throws BadInput (no support, no contact, unknown region, a model that does not offer what is asked for), SolverFailed
-/// never: status is in the result.
+/// Throws BadInput (no support, no contact, unknown region, a model that does not offer what is asked for),
+/// SolverFailed never: status is in the result.
 Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,
                 const Progress& progress = {});
 
-/// The answer where every modulus is 1/factor of the one that gave `result`, same load, clamps only: displacement and energy
-/// times factor. Saves a solve.
-Result scaled(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm, const Result& result,
-              double factor);
+/// The answer where every modulus is 1/factor of the one that gave `result`, same load, clamps only: displacement and
+/// energy times factor. Saves a solve.
+Result scaled(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,
+              const Result& result, double factor);
 
 /// Displacement at points in mm (LPS), by the shape functions of the cell that holds the point; points outside the body
 /// take the nearest cell within one cell, else NaN.

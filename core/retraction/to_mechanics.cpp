@@ -1,6 +1,7 @@
 // The one crossing from mm, kPa and LPS to m, Pa and the grid's own axes, for supports and loads.
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "anatomy/regions.h"
 #include "base/error.h"
@@ -13,7 +14,9 @@ namespace {
 constexpr double kPaToPa = 1e3;
 constexpr double mmToM = 1e-3;
 
-mechanics::NodalField zeroField(const Body& body) { return mechanics::NodalField::Zero(3, body.mesh().nodeCount()); }
+mechanics::NodalField zeroField(const Body& body) {
+  return mechanics::NodalField::Zero(3, body.mesh().nodeCount());
+}
 
 void addFixed(const Body& body, const SupportSpec& spec, std::map<int, mechanics::Fixation>& fixations) {
   // Which grid axis each scene axis is; partial supports need them to coincide.
@@ -25,8 +28,9 @@ void addFixed(const Body& body, const SupportSpec& spec, std::map<int, mechanics
       const Eigen::Vector3d v = body.vectorToLocal(Eigen::Vector3d::Unit(a)).cwiseAbs();
       Eigen::Index along = 0;
       if (v.maxCoeff(&along) < 1.0 - 1e-6)
-        throw BadInput("a support that holds single axes needs a grid along the patient's axes; this one is oblique: "
-                       "hold all three axes, or resample the mask");
+        throw BadInput(
+            "a support that holds single axes needs a grid along the patient's axes; this one is oblique: "
+            "hold all three axes, or resample the mask");
       local[static_cast<std::size_t>(along)] = true;
     }
     axes = local;
@@ -64,36 +68,66 @@ image::Mask bodyMask(const Model& model) {
   return mask;
 }
 
+/// Consistent nodal forces of tractions on voxel faces.
+mechanics::NodalField nodalForces(const Body& body, const std::vector<FaceTraction>& tractions) {
+  std::vector<mechanics::Face> faces;
+  Eigen::Matrix3Xd traction_Pa(3, static_cast<Eigen::Index>(tractions.size()));
+  for (const FaceTraction& t : tractions) {
+    traction_Pa.col(static_cast<Eigen::Index>(faces.size())) = t.traction_Pa;
+    faces.push_back(t.face);
+  }
+  return mechanics::tractionForce(body.mesh(), faces, traction_Pa);
+}
+
+/// Surface loads become tractions on faces; body forces have none.
 struct LoadBuilder {
   const Body& body;
   const Model& model;
   std::optional<Contact>& contact;
 
-  mechanics::NodalField operator()(const BodyForce& load) const {
-    return mechanics::bodyForce(body.mesh(), body.vectorToLocal(load.N_per_m3));
+  std::vector<FaceTraction> operator()(const BodyForce&) const { return {}; }
+  std::vector<FaceTraction> operator()(const Traction& load) const {
+    std::vector<FaceTraction> out;
+    for (const SurfaceFace* f : body.faces(load.region))
+      out.push_back({f->face, body.vectorToLocal(kPaToPa * load.kPa)});
+    return out;
   }
-  mechanics::NodalField operator()(const Traction& load) const {
-    return mechanics::tractionForce(body.mesh(), meshFaces(body, load.region),
-                                    Eigen::Vector3d(body.vectorToLocal(kPaToPa * load.kPa)));
+  std::vector<FaceTraction> operator()(const Pressure& load) const {
+    std::vector<FaceTraction> out;
+    for (const SurfaceFace* f : body.faces(load.region))
+      out.push_back({f->face, -kPaToPa * load.kPa * mechanics::faceNormal(f->face.side)});
+    return out;
   }
-  mechanics::NodalField operator()(const Pressure& load) const {
-    return mechanics::pressureForce(body.mesh(), meshFaces(body, load.region), kPaToPa * load.kPa);
-  }
-  mechanics::NodalField operator()(const Retractor& load) const {
+  std::vector<FaceTraction> operator()(const Retractor& load) const {
     if (contact) throw BadInput("the scene has two retractors; keep one");
-    const Eigen::Vector3d at_mm = load.at_mm ? *load.at_mm : findHoistPoint(body, load, anatomy::inferiorRightLobePoint(bodyMask(model)));
+    const Eigen::Vector3d at_mm =
+        load.at_mm ? *load.at_mm : findHoistPoint(body, load, anatomy::inferiorRightLobePoint(bodyMask(model)));
     contact = findContact(body, load, at_mm);
     const double force_N = load.force_N ? *load.force_N : model.mass_kg * defaults::gravity_m_s2;
     const Eigen::Vector3d local_N = body.vectorToLocal(force_N * load.direction.normalized());
-    std::vector<mechanics::Face> faces;
-    Eigen::Matrix3Xd traction_Pa(3, static_cast<Eigen::Index>(contact->faces.size()));
-    for (std::size_t i = 0; i < contact->faces.size(); ++i) {
-      faces.push_back(contact->faces[i]->face);
-      traction_Pa.col(static_cast<Eigen::Index>(i)) = contact->share[i] / contact->faces[i]->area_m2 * local_N;
-    }
-    return mechanics::tractionForce(body.mesh(), faces, traction_Pa);
+    std::vector<FaceTraction> out;
+    for (std::size_t i = 0; i < contact->faces.size(); ++i)
+      out.push_back({contact->faces[i]->face, contact->share[i] / contact->faces[i]->area_m2 * local_N});
+    return out;
   }
 };
+
+/// Refuses a static scene with a piece that nothing holds, in the patient's own millimetres.
+void requireSupported(const Body& body, const mechanics::Supports& supports) {
+  const std::vector<mechanics::FreeComponent> loose = mechanics::findUnsupported(body.mesh(), supports);
+  if (loose.empty()) return;
+  std::ostringstream text;
+  text.precision(4);
+  for (std::size_t i = 0; i < loose.size() && i < 3; ++i) {
+    const mechanics::FreeComponent& c = loose[i];
+    text << (i ? "; " : "") << "a piece of " << c.cells << " cells (" << 1e6 * c.volume_m3 << " mL) around ("
+         << body.toLps_mm(c.centre_m).transpose() << ") mm has " << c.freeModes << " free rigid mode"
+         << (c.freeModes == 1 ? "" : "s") << (c.hinged ? ", hanging on the rest by an edge or corner only" : "");
+  }
+  if (loose.size() > 3) text << "; and " << loose.size() - 3 << " more pieces";
+  text << ": hold it with a support, or leave it out of the mask (a static solve needs every piece held)";
+  throw BadInput(text.str());
+}
 
 }  // namespace
 
@@ -111,11 +145,14 @@ MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& se
         scene.problem.supports.springs.push_back(spring);
   }
   for (const auto& [node, f] : fixations) scene.problem.supports.fixations.push_back(f);
-  if (!setup.analysis.dynamic) mechanics::requireSupported(body.mesh(), scene.problem.supports);
+  if (!setup.analysis.dynamic) requireSupported(body, scene.problem.supports);
 
   scene.problem.f_N = zeroField(body);
   for (const LoadSpec& load : setup.loads) {
-    scene.loads_N.push_back(std::visit(LoadBuilder{body, model, scene.contact}, load));
+    scene.tractions.push_back(std::visit(LoadBuilder{body, model, scene.contact}, load));
+    const auto* weight = std::get_if<BodyForce>(&load);
+    scene.loads_N.push_back(weight ? mechanics::bodyForce(body.mesh(), body.vectorToLocal(weight->N_per_m3))
+                                   : nodalForces(body, scene.tractions.back()));
     scene.problem.f_N += scene.loads_N.back();
   }
   return scene;

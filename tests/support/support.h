@@ -32,6 +32,6 @@ image::Mask letterF();
 }  // namespace glisson::test
 
 /// Skips the running GoogleTest with a message where the real data is absent.
-#define GLISSON_NEEDS_DATA(relative)                                                                  \
-  if (!std::filesystem::exists(::glisson::test::sharedData() / (relative)))                           \
+#define GLISSON_NEEDS_DATA(relative)                                        \
+  if (!std::filesystem::exists(::glisson::test::sharedData() / (relative))) \
   GTEST_SKIP() << "real data '" << (relative) << "' is not beside this checkout"

@@ -66,8 +66,8 @@ class LineRecorder : public nlohmann::json_sax<json> {
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& e) override {
     const std::string what = e.what();
     const auto colon = what.find(": ");
-    throw BadInput(name_ + ", line " + std::to_string(line_) + ": this is not JSON: " +
-                   (colon == std::string::npos ? what : what.substr(colon + 2)));
+    throw BadInput(name_ + ", line " + std::to_string(line_) +
+                   ": this is not JSON: " + (colon == std::string::npos ? what : what.substr(colon + 2)));
   }
 
  private:
@@ -141,15 +141,21 @@ JsonObject::JsonObject(const JsonDocument& document, std::string pointer, const 
   if (!value.is_object()) fail("must be an object in braces, but is " + std::string(value.type_name()));
 }
 
-bool JsonObject::has(const std::string& key) const { return value_->contains(key); }
+bool JsonObject::has(const std::string& key) const {
+  offered_.insert(key);
+  return value_->contains(key);
+}
 
 const json& JsonObject::need(const std::string& key) {
   asked_.insert(key);
+  offered_.insert(key);
   if (!has(key)) fail("key \"" + key + "\" is missing");
   return (*value_)[key];
 }
 
-const json& JsonObject::raw(const std::string& key) { return need(key); }
+const json& JsonObject::raw(const std::string& key) {
+  return need(key);
+}
 
 double JsonObject::number(const std::string& key) {
   const json& v = need(key);
@@ -161,11 +167,13 @@ double JsonObject::number(const std::string& key) {
 
 double JsonObject::number(const std::string& key, double fallback) {
   asked_.insert(key);
+  offered_.insert(key);
   return has(key) ? number(key) : fallback;
 }
 
 int JsonObject::integer(const std::string& key, int fallback) {
   asked_.insert(key);
+  offered_.insert(key);
   if (!has(key)) return fallback;
   const double d = number(key);
   if (d != std::floor(d) || std::abs(d) > 2e9) fail(key, "must be a whole number");
@@ -174,6 +182,7 @@ int JsonObject::integer(const std::string& key, int fallback) {
 
 bool JsonObject::boolean(const std::string& key, bool fallback) {
   asked_.insert(key);
+  offered_.insert(key);
   if (!has(key)) return fallback;
   const json& v = need(key);
   if (!v.is_boolean()) fail(key, "must be true or false");
@@ -188,6 +197,7 @@ std::string JsonObject::text(const std::string& key) {
 
 std::string JsonObject::text(const std::string& key, const std::string& fallback) {
   asked_.insert(key);
+  offered_.insert(key);
   return has(key) ? text(key) : fallback;
 }
 
@@ -201,6 +211,7 @@ std::string JsonObject::word(const std::string& key, const std::vector<std::stri
 std::string JsonObject::word(const std::string& key, const std::vector<std::string>& allowed,
                              const std::string& fallback) {
   asked_.insert(key);
+  offered_.insert(key);
   return has(key) ? word(key, allowed) : fallback;
 }
 
@@ -254,8 +265,7 @@ std::vector<JsonObject> JsonObject::objects(const std::string& key) {
 void JsonObject::finish() const {
   for (const auto& item : value_->items()) {
     if (asked_.count(item.key())) continue;
-    fail(item.key(),
-         "is not a key that is known here; these are: " + joined({asked_.begin(), asked_.end()}));
+    fail(item.key(), "is not a key that is known here; these are: " + joined({offered_.begin(), offered_.end()}));
   }
 }
 

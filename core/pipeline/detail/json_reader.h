@@ -61,6 +61,7 @@ class JsonObject {
   std::string pointer_;
   const nlohmann::json* value_;
   std::set<std::string> asked_;
+  mutable std::set<std::string> offered_;  ///< looked for, there or not: what may stand here
 };
 
 }  // namespace glisson::pipeline::detail

@@ -8,22 +8,22 @@ namespace glisson::pipeline::detail {
 struct Needs {
   explicit Needs(const Scene& scene);
 
-  bool patient = false;      ///< DICOM or volumes, outlined
-  bool mriValues = false;    ///< intensities, not only the grid
-  bool mre = false;          ///< elastogram read, mapped, measured
+  bool patient = false;    ///< DICOM or volumes, outlined
+  bool mriValues = false;  ///< intensities, not only the grid
+  bool mre = false;        ///< elastogram read, mapped, measured
   bool vessels = false;
-  bool liverSurface = false; ///< triangle surface
-  bool map = false;          ///< a modulus map from a file
+  bool liverSurface = false;  ///< triangle surface
+  bool map = false;           ///< a modulus map from a file
   bool meshfree = false;
-  bool mass = false;         ///< mass matrix
+  bool mass = false;  ///< mass matrix
   bool damping = false;
   bool timeSteps = false;
-  bool newton = false;       ///< non-linear kinematics
+  bool newton = false;  ///< non-linear kinematics
   bool condensed = false;
   bool compare = false;
   bool discretisation = false;  ///< error in millimetres from a second grid
-  bool strain = true;        ///< validity is printed with every result
-  bool cellField = false;    ///< displacement at every cell
+  bool strain = true;           ///< validity is printed with every result
+  bool cellField = false;       ///< displacement at every cell
   bool pictures = false;
   bool report = false;
   bool sofa = false;

@@ -54,9 +54,10 @@ TEST(Parallel, EveryIndexOnceAndExceptionsArrive) {
     for (std::size_t i = b; i < e; ++i) ++seen[i];
   });
   for (const auto& s : seen) EXPECT_EQ(s.load(), 1);
-  EXPECT_THROW(parallelChunks(100, 1, [](std::size_t b, std::size_t) {
-                 if (b == 57) throw BadInput("57");
-               }),
+  EXPECT_THROW(parallelChunks(100, 1,
+                              [](std::size_t b, std::size_t) {
+                                if (b == 57) throw BadInput("57");
+                              }),
                BadInput);
 }
 

@@ -18,7 +18,8 @@ using testing::Not;
 
 /// A scene on the letter F as a mask, with a map of one modulus, springs all round and a push.
 std::string letterScene(const std::string& material, const std::string& outputs) {
-  return R"({ "schema": "glisson/scene/1", "geometry": { "kind": "mask", "file": "F.nii.gz" }, "material": )" + material +
+  return R"({ "schema": "glisson/scene/1", "geometry": { "kind": "mask", "file": "F.nii.gz" }, "material": )" +
+         material +
          R"(, "supports": [ { "region": {"surface":"all"}, "kind": "spring", "stiffness_kPa_per_mm": 0.05 } ],
       "loads": [ { "kind": "traction", "region": {"surface":"inferior"}, "kPa": [0.05,-0.02,0.2] } ],
       "compare": { "against": "atlas" }, "outputs": )" +
@@ -38,7 +39,8 @@ class LetterRun : public testing::Test {
     image::writeVolume(folder_ / "stiff.nrrd", map);
   }
   Scene scene(const std::string& map, const std::string& outputs = R"(["displacement-field"])") {
-    return parseScene(letterScene(R"({"map":")" + map + R"(","quantity":"shear","unit":"Pa"})", outputs), folder_.path());
+    return parseScene(letterScene(R"({"map":")" + map + R"(","quantity":"shear","unit":"Pa"})", outputs),
+                      folder_.path());
   }
   test::TemporaryFolder folder_;
   image::Mask mask_;
@@ -133,7 +135,8 @@ TEST_F(LetterRun, CancelStopsTheRun) {
 
 TEST(Run, SceneWithoutSupportOrLoadIsRefused) {
   const Scene s = parseScene(R"({"schema":"glisson/scene/1","geometry":{"kind":"box","size_mm":[10,10,10]},
-    "material":{"youngs_kPa":12}})", ".");
+    "material":{"youngs_kPa":12}})",
+                             ".");
   EXPECT_THROW(run(s, {}), BadInput);
 }
 

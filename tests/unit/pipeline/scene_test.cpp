@@ -67,7 +67,8 @@ TEST(Scene, MissingFilesAreNamed) {
 }
 
 TEST(Scene, JsonOfASceneGivesTheSameScene) {
-  std::string text = replaced(beam, "\"outputs\"", R"("analysis": {"kind":"dynamic","h_ms":0.5,"end_s":0.25,"rayleigh":[0.1,0.002]},
+  std::string text =
+      replaced(beam, "\"outputs\"", R"("analysis": {"kind":"dynamic","h_ms":0.5,"end_s":0.25,"rayleigh":[0.1,0.002]},
     "model": {"kind":"meshfree","frames":50,"kernel":"voronoi","order":1},
     "solver": {"kind":"cg","iterations":200,"tolerance":1e-6,"preconditioner":"none"},
     "compare": {"against":"atlas"}, "seed": 7, "outputs")");

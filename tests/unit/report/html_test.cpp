@@ -25,7 +25,9 @@ TEST(HtmlReport, EscapesTextAndEndsWithTheResearchUseLine) {
 
 TEST(HtmlReport, PicturesAreInside) {
   const test::TemporaryFolder folder;
-  std::ofstream(folder / "x.png", std::ios::binary) << "Man" << "Ma" << "M";  // 6 bytes: no padding
+  std::ofstream(folder / "x.png", std::ios::binary) << "Man"
+                                                    << "Ma"
+                                                    << "M";  // 6 bytes: no padding
   HtmlReport page("t");
   page.picture(folder / "x.png", "caption");
   EXPECT_THAT(page.html(), HasSubstr("base64,TWFuTWFN\""));
