@@ -63,6 +63,11 @@ int main(int argc, char** argv) {
     return 2;
   }
 
+  if (parser.isSet(run) && (!parser.isSet(screenshot) || !parser.isSet(outlines))) {
+    std::cerr << "glisson: --run needs --screenshot and --outlines: without an outline there is nothing to retract\n";
+    return 2;
+  }
+
   glisson::panels::applyTheme(light ? glisson::panels::Theme::Light : glisson::panels::Theme::Dark);
   glisson::panels::MainWindow window;
   window.show();
