@@ -1,5 +1,8 @@
 #include "dicom/detail/attributes.h"
 
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
 #include <dcmtk/dcmdata/dcistrmb.h>
 
 #include <charconv>

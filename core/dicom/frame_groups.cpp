@@ -6,6 +6,9 @@
 #include "base/error.h"
 #include "dicom/detail/attributes.h"
 
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
 namespace glisson::dicom {
 namespace {
 

@@ -6,6 +6,9 @@
 #include "base/error.h"
 #include "base/sha256.h"
 #include "dicom/detail/attributes.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
 #include "dicom/frame_groups.h"
 #include "dicom/pixels.h"
 

@@ -4,6 +4,9 @@
 
 #include "base/error.h"
 #include "dicom/detail/attributes.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
 #include "dicom/rtstruct.h"
 
 namespace glisson::dicom {

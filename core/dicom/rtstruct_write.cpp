@@ -7,6 +7,9 @@
 #include "base/error.h"
 #include "base/sha256.h"
 #include "dicom/detail/attributes.h"
+
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
 #include "dicom/rtstruct.h"
 #include "dicom/write_mr.h"
 

@@ -13,6 +13,10 @@
 #include "render/font.h"
 #include "render/sampling.h"
 #include "render/detail/scene3d_parts.h"
+
+#include <vtkActor.h>
+#include <vtkProp.h>
+#include <vtkSmartPointer.h>
 #include "render/slice_frame.h"
 
 namespace glisson::render {

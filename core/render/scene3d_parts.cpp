@@ -1,5 +1,9 @@
 #include "render/detail/scene3d_parts.h"
 
+#include <vtkActor.h>
+#include <vtkProp.h>
+#include <vtkSmartPointer.h>
+
 #include <vtkActor2D.h>
 #include <vtkBillboardTextActor3D.h>
 #include <vtkCellArray.h>

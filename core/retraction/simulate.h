@@ -59,7 +59,7 @@ struct Result {
 /// Corotational and hyperelastic kinematics: static, voxel hexahedra. Tetrahedra: static, linear; dofs are those of the
 /// tetrahedra, body forces are consistent with them, all other loads act at the voxel corners.
 /// Throws BadInput (no support, no contact, unknown region, a model that does not offer what is asked for),
-/// SolverFailed never: status is in the result.
+/// SolverFailed where a condensed column does not converge; else the status is in the result.
 Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,
                 const Progress& progress = {});
 
@@ -69,7 +69,7 @@ Result scaled(const Model& model, const Setup& setup, const std::vector<Eigen::V
               const Result& result, double factor);
 
 /// Displacement at points in mm (LPS), by the shape functions of the cell that holds the point; points outside the body
-/// take the nearest cell within one cell, else NaN.
+/// take the nearest cell within half a cell, else NaN.
 std::vector<Eigen::Vector3d> displacementAt(const Model& model, const Result& result,
                                             const std::vector<Eigen::Vector3d>& points_mm);
 

@@ -1,15 +1,16 @@
 #pragma once
 
 // DCMTK seen through a few strict functions; for .cpp files of this room only.
-#include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dctk.h>
-
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dicom/file_layout.h"
+
+class DcmDataset;
+class DcmItem;
+class DcmTagKey;
 
 namespace glisson::dicom {
 

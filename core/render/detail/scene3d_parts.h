@@ -1,9 +1,5 @@
 #pragma once
 
-#include <vtkActor.h>
-#include <vtkProp.h>
-#include <vtkSmartPointer.h>
-
 #include <Eigen/Geometry>
 #include <functional>
 #include <string>
@@ -12,6 +8,11 @@
 #include "anatomy/triangle_mesh.h"
 #include "render/overlay.h"
 #include "render/painter.h"
+
+class vtkActor;
+class vtkProp;
+template <class T>
+class vtkSmartPointer;
 
 namespace glisson::render {
 
