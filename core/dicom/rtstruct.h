@@ -34,6 +34,7 @@ StructureSet readRtStruct(const std::filesystem::path& file);
 
 /// Writes an RT Structure Set that refers to the given image series: same patient and study as source (its first file),
 /// new series and SOP UIDs derived from seed, SeriesDescription begins "RESEARCH", DS of at most 16 characters.
+/// Contours inside others of the same plane are holes, written as keyholes (keyhole.h).
 void writeRtStruct(const std::filesystem::path& file, const StructureSet& structures, const Series& source,
                    std::uint64_t seed);
 

@@ -1,50 +1,15 @@
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/sha256.h"
-#include "dicom/detail/attributes.h"
-
-#include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dctk.h>
+#include "dicom/detail/writer.h"
+#include "dicom/keyhole.h"
 #include "dicom/rtstruct.h"
 #include "dicom/write_mr.h"
 
 namespace glisson::dicom {
 namespace {
-
-/// Inserts into an item and turns any refusal of DCMTK into our fault: the values are made here.
-class Writer {
- public:
-  explicit Writer(DcmItem& item) : item_(item) {}
-
-  void text(const DcmTagKey& tag, const std::string& value) {
-    check(value.empty() ? item_.insertEmptyElement(tag) : item_.putAndInsertString(tag, value.c_str()), tag);
-  }
-  void number(const DcmTagKey& tag, long value) { text(tag, std::to_string(value)); }
-  DcmItem& newItem(const DcmTagKey& sequence) {
-    DcmItem* made = nullptr;
-    check(item_.findOrCreateSequenceItem(sequence, made, -2), sequence);
-    return *made;
-  }
-  /// As in source, or empty where source lacks it (Type 2).
-  void copy(const DcmTagKey& tag, DcmItem& source) {
-    DcmElement* element = nullptr;
-    if (source.findAndGetElement(tag, element).good() && element != nullptr)
-      check(item_.insert(static_cast<DcmElement*>(element->clone()), OFTrue), tag);
-    else
-      check(item_.insertEmptyElement(tag), tag);
-  }
-
- private:
-  static void check(const OFCondition& status, const DcmTagKey& tag) {
-    if (status.bad()) throw BadArgument("an RT Structure Set cannot hold " + nameOf(tag) + ": " + status.text());
-  }
-  DcmItem& item_;
-};
 
 /// The slice that a contour was drawn on: as it says, else the nearest one.
 std::size_t sliceOf(const StructureContour& contour, const Series& source) {
@@ -60,10 +25,7 @@ std::size_t sliceOf(const StructureContour& contour, const Series& source) {
 }
 
 void referToImage(DcmItem& holder, const Series& source, std::size_t slice) {
-  Writer image(Writer(holder).newItem(DCM_ContourImageSequence));
-  image.text(DCM_ReferencedSOPClassUID, source.sopClassUid);
-  image.text(DCM_ReferencedSOPInstanceUID, source.sopInstanceUids[source.frames.empty() ? slice : 0]);
-  if (!source.frames.empty()) image.number(DCM_ReferencedFrameNumber, source.frames[slice] + 1);
+  referToSlice(Writer(holder).newItem(DCM_ContourImageSequence), source, slice);
 }
 
 std::string contourData(const StructureContour& contour) {
@@ -75,13 +37,7 @@ std::string contourData(const StructureContour& contour) {
 }
 
 void check(const StructureSet& structures, const Series& source) {
-  if (source.files.empty() || source.sopInstanceUids.empty())
-    throw BadArgument("an RT Structure Set needs an image series to refer to; this one has no files");
-  if (source.frames.empty() && source.sopInstanceUids.size() != static_cast<std::size_t>(source.grid.size.z()))
-    throw BadArgument("the image series of an RT Structure Set must have one image per slice");
-  if (std::any_of(source.sopInstanceUids.begin(), source.sopInstanceUids.end(),
-                  [](const std::string& uid) { return uid.empty(); }))
-    throw BadInput("an RT Structure Set cannot refer to images without a SOP Instance UID");
+  checkReferable(source, "an RT Structure Set");
   for (const Structure& s : structures.structures) {
     if (s.name.size() > 64) throw BadInput("the name of a structure is longer than 64 characters");
     for (const StructureContour& c : s.contours)
@@ -114,7 +70,7 @@ void writeStructures(DcmDataset& data, const StructureSet& structures, const Ser
   for (const Structure& s : structures.structures) {
     DcmItem& item = root.newItem(DCM_ROIContourSequence);
     Writer(item).text(DCM_ROIDisplayColor, "192\\64\\64");
-    for (const StructureContour& c : s.contours) {
+    for (const StructureContour& c : withKeyholes(s.contours)) {
       DcmItem& contour = Writer(item).newItem(DCM_ContourSequence);
       referToImage(contour, source, sliceOf(c, source));
       Writer(contour).text(DCM_ContourGeometricType, "CLOSED_PLANAR");
@@ -144,62 +100,33 @@ std::string digest(const StructureSet& structures) {
   return sha256(all.data(), all.size());
 }
 
-void save(DcmFileFormat& format, const std::filesystem::path& file) {
-  const auto temporary = file.parent_path() / ("." + file.filename().string() + ".part-" + std::to_string(getpid()));
-  std::error_code failed;
-  // Implicit value representations: an explicit DS holds at most 64 KiB, which long contours exceed.
-  bool good = format.saveFile(temporary.c_str(), EXS_LittleEndianImplicit, EET_ExplicitLength).good();
-  if (good) {
-    const int descriptor = open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
-    good = descriptor >= 0 && fsync(descriptor) == 0;
-    if (descriptor >= 0) close(descriptor);
-  }
-  if (good) std::filesystem::rename(temporary, file, failed);
-  if (good && !failed) return;
-  std::filesystem::remove(temporary, failed);
-  throw BadInput("'" + file.filename().string() +
-                 "' cannot be written; is the folder there, writable, and the disk not full?");
-}
-
 }  // namespace
 
 void writeRtStruct(const std::filesystem::path& file, const StructureSet& structures, const Series& source,
                    std::uint64_t seed) {
   check(structures, source);
   DcmDataset image;
-  try {
-    ByteSource bytes(source.files.front());
-    const FileLayout layout = readLayout(bytes);
-    parseHeader(bytes, layout, image);
-  } catch (const BadInput& e) {
-    throw BadInput("'" + source.files.front().filename().string() + "' " + e.what());
-  }
+  readSourceHeader(source, image);
   const std::string base = "rtstruct/" + source.uid + "/" + source.frameOfReferenceUid + "/" + std::to_string(seed) +
                            "/" + digest(structures);
   DcmFileFormat format;
   DcmDataset& data = *format.getDataset();
+  const DerivedHeader header{UID_RTStructureSetStorage, "RTSTRUCT", "RESEARCH contours", 9000 + source.number % 1000,
+                             base};
+  writeDerivedHeader(data, image, source, header);
+  for (const DcmTagKey& tag : {DCM_ContentDate, DCM_ContentTime})
+    data.findAndDeleteElement(tag);  // of images and reports
   Writer w(data);
-  w.copy(DCM_SpecificCharacterSet, image);
-  w.text(DCM_SOPClassUID, UID_RTStructureSetStorage);
-  w.text(DCM_SOPInstanceUID, uidFrom(base + "/instance"));
-  for (const DcmTagKey& tag :
-       {DCM_StudyDate, DCM_StudyTime, DCM_AccessionNumber, DCM_ReferringPhysicianName, DCM_PatientName, DCM_PatientID,
-        DCM_PatientBirthDate, DCM_PatientSex, DCM_StudyInstanceUID, DCM_StudyID})
-    w.copy(tag, image);
-  w.text(DCM_Modality, "RTSTRUCT");
-  w.text(DCM_Manufacturer, "Glisson");
-  w.text(DCM_SeriesDescription, "RESEARCH contours");
+  const std::string frame =
+      structures.frameOfReferenceUid.empty() ? frameOfReference(source) : structures.frameOfReferenceUid;
+  w.text(DCM_FrameOfReferenceUID, frame);
   w.text(DCM_OperatorsName, "");
-  w.text(DCM_SeriesInstanceUID, uidFrom(base + "/series"));
-  w.number(DCM_SeriesNumber, 9000 + source.number % 1000);
   w.text(DCM_StructureSetLabel, "RESEARCH");
   w.text(DCM_StructureSetDate, "");
   w.text(DCM_StructureSetTime, "");
-  const std::string frame = !structures.frameOfReferenceUid.empty() ? structures.frameOfReferenceUid
-                            : !source.frameOfReferenceUid.empty()   ? source.frameOfReferenceUid
-                                                                    : uidFrom(source.uid + "/frame of reference");
   writeStructures(data, structures, source, frame);
-  save(format, file);
+  // Implicit value representations: an explicit DS holds at most 64 KiB, which long contours exceed.
+  saveDicom(format, file, EXS_LittleEndianImplicit);
 }
 
 }  // namespace glisson::dicom

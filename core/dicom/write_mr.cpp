@@ -28,9 +28,9 @@ std::string joined(const std::vector<std::string>& parts) {
   return all;
 }
 
-class Writer {
+class MrWriter {
  public:
-  explicit Writer(DcmDataset& data) : data_(data) {}
+  explicit MrWriter(DcmDataset& data) : data_(data) {}
   void text(const DcmTagKey& tag, const std::string& value) {
     check(data_.putAndInsertString(tag, value.c_str()), tag);
   }
@@ -64,7 +64,7 @@ struct Kind {
   bool colour;
 };
 
-void patientAndStudy(Writer& w, const MrSeriesHeader& h) {
+void patientAndStudy(MrWriter& w, const MrSeriesHeader& h) {
   w.text(DCM_SpecificCharacterSet, "ISO_IR 192");
   w.text(DCM_StudyDate, h.date);
   w.text(DCM_SeriesDate, h.date);
@@ -96,7 +96,7 @@ void patientAndStudy(Writer& w, const MrSeriesHeader& h) {
   w.text(DCM_PatientPosition, "HFS");
 }
 
-void acquisition(Writer& w, const MrSeriesHeader& h) {
+void acquisition(MrWriter& w, const MrSeriesHeader& h) {
   w.text(DCM_ScanningSequence, h.scanningSequence);
   w.text(DCM_SequenceVariant, h.sequenceVariant);
   w.text(DCM_ScanOptions, h.scanOptions);
@@ -117,7 +117,7 @@ void acquisition(Writer& w, const MrSeriesHeader& h) {
   }
 }
 
-void plane(Writer& w, const MrSeriesHeader& h, const image::Grid& g, int k) {
+void plane(MrWriter& w, const MrSeriesHeader& h, const image::Grid& g, int k) {
   const Eigen::Vector3d p = g.indexToLps({0, 0, static_cast<double>(k)});
   const Eigen::Vector3d row = g.direction.col(0);
   const Eigen::Vector3d column = g.direction.col(1);
@@ -150,13 +150,17 @@ WrittenSeries writeSlices(const std::filesystem::path& folder, const MrSeriesHea
   for (int k = 0; k < g.size.z(); ++k) {
     DcmFileFormat file;
     DcmDataset& data = *file.getDataset();
-    Writer w(data);
+    MrWriter w(data);
     const std::string uid = uidFrom(h.seriesUid + "/" + std::to_string(k));
     w.text(DCM_ImageType, joined(h.imageType));
     w.text(DCM_SOPClassUID, kind.sopClass);
     w.text(DCM_SOPInstanceUID, uid);
     patientAndStudy(w, h);
-    if (kind.colour) w.text(DCM_ConversionType, "WSD");
+    if (kind.colour) {
+      w.text(DCM_ConversionType, "WSD");
+      w.text(DCM_PatientOrientation, "");
+      w.text(DCM_BurnedInAnnotation, "NO");
+    }
     acquisition(w, h);
     if (!h.derivation.empty()) w.text(DCM_DerivationDescription, h.derivation);
     plane(w, h, g, k);
@@ -215,7 +219,7 @@ WrittenSeries writeMrSeries(const std::filesystem::path& folder, const MrSeriesH
   checkHeader(header, g, volume.values.size());
   const std::size_t slice = static_cast<std::size_t>(g.size.x()) * static_cast<std::size_t>(g.size.y());
   return writeSlices(folder, header, g, {UID_MRImageStorage, false}, [&](DcmDataset& data, int k) {
-    Writer w(data);
+    MrWriter w(data);
     w.word(DCM_SamplesPerPixel, 1);
     w.text(DCM_PhotometricInterpretation, "MONOCHROME2");
     w.word(DCM_BitsAllocated, 16);
@@ -224,8 +228,8 @@ WrittenSeries writeMrSeries(const std::filesystem::path& folder, const MrSeriesH
     w.word(DCM_PixelRepresentation, 1);
     const auto* first = volume.values.data() + static_cast<std::size_t>(k) * slice;
     const std::vector<std::uint16_t> words(first, first + slice);  // two's complement, as PixelRepresentation 1 says
-    Writer::check(data.putAndInsertUint16Array(DCM_PixelData, words.data(), static_cast<unsigned long>(words.size())),
-                  DCM_PixelData);
+    MrWriter::check(data.putAndInsertUint16Array(DCM_PixelData, words.data(), static_cast<unsigned long>(words.size())),
+                    DCM_PixelData);
   });
 }
 
@@ -235,7 +239,7 @@ WrittenSeries writeMrColourSeries(const std::filesystem::path& folder, const MrS
   checkHeader(header, g, volume.values.size());
   const std::size_t slice = static_cast<std::size_t>(g.size.x()) * static_cast<std::size_t>(g.size.y());
   return writeSlices(folder, header, g, {UID_SecondaryCaptureImageStorage, true}, [&](DcmDataset& data, int k) {
-    Writer w(data);
+    MrWriter w(data);
     w.word(DCM_SamplesPerPixel, 3);
     w.text(DCM_PhotometricInterpretation, "RGB");
     w.word(DCM_PlanarConfiguration, 0);
@@ -248,8 +252,8 @@ WrittenSeries writeMrColourSeries(const std::filesystem::path& folder, const MrS
     bytes.reserve(slice * 3 + 1);
     for (const auto* p = first; p != first + slice; ++p) bytes.insert(bytes.end(), p->begin(), p->end());
     if (bytes.size() % 2) bytes.push_back(0);  // values have even length
-    Writer::check(data.putAndInsertUint8Array(DCM_PixelData, bytes.data(), static_cast<unsigned long>(bytes.size())),
-                  DCM_PixelData);
+    MrWriter::check(data.putAndInsertUint8Array(DCM_PixelData, bytes.data(), static_cast<unsigned long>(bytes.size())),
+                    DCM_PixelData);
   });
 }
 

@@ -1,0 +1,130 @@
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/sha256.h"
+#include "dicom/detail/writer.h"
+#include "dicom/seg.h"
+#include "dicom/write_mr.h"
+
+namespace glisson::dicom {
+namespace {
+
+constexpr Code segmentation{"113076", "DCM", "Segmentation"};
+constexpr Code sourceForProcessing{"121322", "DCM", "Source image for image processing operation"};
+
+std::size_t sliceVoxels(const image::Grid& g) {
+  return static_cast<std::size_t>(g.size.x()) * static_cast<std::size_t>(g.size.y());
+}
+
+/// The values of one slice.
+const std::uint8_t* sliceOf(const image::Mask& mask, int k) {
+  return mask.values.data() + static_cast<std::size_t>(k) * sliceVoxels(mask.grid);
+}
+
+void check(const std::vector<Segment>& segments, const Series& source) {
+  checkReferable(source, "a Segmentation");
+  bool any = false;
+  for (const Segment& s : segments) {
+    if (!s.mask.grid.sameGeometry(source.grid))
+      throw BadArgument("segment " + std::to_string(s.number) + " does not lie on the grid of its source series");
+    if (s.label.empty() || s.label.size() > 64)
+      throw BadInput("the label of segment " + std::to_string(s.number) + " must have 1 to 64 characters");
+    any = any || std::any_of(s.mask.values.begin(), s.mask.values.end(), [](std::uint8_t v) { return v != 0; });
+  }
+  if (!any) throw BadInput("nothing is segmented: every mask is empty");
+}
+
+void describe(Writer& root, const Segment& s) {
+  root.group(DCM_SegmentSequence, [&](Writer& w) {
+    w.word(DCM_SegmentNumber, s.number);
+    w.text(DCM_SegmentLabel, s.label);
+    w.text(DCM_SegmentAlgorithmType, "MANUAL");
+    w.code(DCM_SegmentedPropertyCategoryCodeSequence, codes::organ);
+    w.code(DCM_SegmentedPropertyTypeCodeSequence, codes::liver);
+    for (const int v : {37000, 47000, 40000})  // CIELab of a soft red
+      Writer::check(w.item().putAndInsertUint16(DCM_RecommendedDisplayCIELabValue, static_cast<Uint16>(v),
+                                                v == 37000   ? 0
+                                                : v == 47000 ? 1
+                                                             : 2),
+                    DCM_RecommendedDisplayCIELabValue);
+    w.text(DCM_TrackingID, s.label);
+    w.text(DCM_TrackingUID, uidFrom("tracking/" + s.label + "/" + sha256(s.mask.values.data(), s.mask.values.size())));
+  });
+}
+
+}  // namespace
+
+WrittenSegmentation writeSegmentation(const std::filesystem::path& file, const std::vector<Segment>& segments,
+                                      const Series& source, std::uint64_t seed) {
+  check(segments, source);
+  std::string identity = "seg/" + source.uid + "/" + std::to_string(seed);
+  for (const Segment& s : segments)
+    identity += "/" + std::to_string(s.number) + s.label + sha256(s.mask.values.data(), s.mask.values.size());
+  DcmDataset image;
+  readSourceHeader(source, image);
+  DcmFileFormat format;
+  DcmDataset& data = *format.getDataset();
+  writeDerivedHeader(data, image, source,
+                     {UID_SegmentationStorage, "SEG", "RESEARCH segmentation", 9100 + source.number % 1000, identity});
+  WrittenSegmentation written;
+  written.sopInstanceUid = uidFrom(identity + "/instance");
+  written.seriesInstanceUid = uidFrom(identity + "/series");
+
+  Writer root(data);
+  root.text(DCM_ImageType, "DERIVED\\PRIMARY");
+  root.text(DCM_ContentLabel, "RESEARCH");
+  root.text(DCM_ContentDescription, "Research use only");
+  root.text(DCM_ContentCreatorName, "");
+  root.text(DCM_SegmentationType, "BINARY");
+  root.text(DCM_LossyImageCompression, "00");
+  const image::Grid& g = source.grid;
+  root.word(DCM_SamplesPerPixel, 1);
+  root.text(DCM_PhotometricInterpretation, "MONOCHROME2");
+  root.word(DCM_Rows, g.size.y());
+  root.word(DCM_Columns, g.size.x());
+  root.word(DCM_BitsAllocated, 1);
+  root.word(DCM_BitsStored, 1);
+  root.word(DCM_HighBit, 0);
+  root.word(DCM_PixelRepresentation, 0);
+  referToSeries(data, source);
+  const std::string dimensions = uidFrom(identity + "/dimensions");
+  writeDimensions(root, dimensions,
+                  {{DCM_ReferencedSegmentNumber, DCM_SegmentIdentificationSequence},
+                   {DCM_ImagePositionPatient, DCM_PlanePositionSequence}});
+  for (const Segment& s : segments) describe(root, s);
+  root.group(DCM_SharedFunctionalGroupsSequence, [&](Writer& shared) { writeSharedGeometry(shared, g); });
+
+  // Bits of all frames follow each other without padding, the first pixel in the lowest bit.
+  std::vector<std::uint8_t> bits;
+  std::size_t bit = 0;
+  int frames = 0;
+  for (const Segment& s : segments) {
+    auto& frameOfSlice = written.frameOfSlice.emplace_back(static_cast<std::size_t>(g.size.z()), 0);
+    for (int k = 0; k < g.size.z(); ++k) {
+      const std::uint8_t* values = sliceOf(s.mask, k);
+      if (std::all_of(values, values + sliceVoxels(g), [](std::uint8_t v) { return v == 0; })) continue;
+      frameOfSlice[static_cast<std::size_t>(k)] = ++frames;
+      bits.resize((bit + sliceVoxels(g) + 7) / 8, 0);
+      for (std::size_t n = 0; n < sliceVoxels(g); ++n, ++bit)
+        if (values[n] != 0) bits[bit / 8] = static_cast<std::uint8_t>(bits[bit / 8] | (1U << (bit % 8)));
+      root.group(DCM_PerFrameFunctionalGroupsSequence, [&](Writer& frame) {
+        writeDerivation(frame, source, static_cast<std::size_t>(k), segmentation, sourceForProcessing);
+        frame.group(DCM_FrameContentSequence, [&](Writer& w) {
+          w.longWords(DCM_DimensionIndexValues,
+                      {static_cast<std::uint32_t>(s.number), static_cast<std::uint32_t>(k + 1)});
+        });
+        writePlanePosition(frame, g, k);
+        frame.group(DCM_SegmentIdentificationSequence,
+                    [&](Writer& w) { w.word(DCM_ReferencedSegmentNumber, s.number); });
+      });
+    }
+  }
+  root.number(DCM_NumberOfFrames, frames);
+  if (bits.size() % 2) bits.push_back(0);  // values have even length
+  Writer::check(data.putAndInsertUint8Array(DCM_PixelData, bits.data(), static_cast<unsigned long>(bits.size())),
+                DCM_PixelData);
+  saveDicom(format, file, EXS_LittleEndianExplicit);
+  return written;
+}
+
+}  // namespace glisson::dicom
