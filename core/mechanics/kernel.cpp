@@ -51,13 +51,16 @@ FrameBasis::FrameBasis(const VoxelMesh& mesh, Sites sites, const KernelOptions& 
     : sites_(std::move(sites)), options_(options), notes_(sites_.notes) {
   if (options_.order != 1 && options_.order != 2)
     throw BadInput("mesh-free frames of order " + std::to_string(options_.order) +
-                   "; choose 1 (affine, 12 degrees of freedom) or 2 (quadratic, 30)");
-  if (options_.alpha == 0.0) options_.alpha = options_.order == 1 ? 2.2 : 1.8;
+                   "; choose 1 (affine, 12 degrees of freedom; linear basis of \"mls\") or 2 (quadratic, 30)");
+  if (options_.alpha == 0.0)
+    options_.alpha =
+        options_.kernel == Kernel::Mls ? (options_.order == 1 ? 1.8 : 2.6) : (options_.order == 1 ? 2.2 : 1.8);
   if (!(options_.alpha >= 1.0 && options_.alpha <= 6.0))
     throw BadInput("mesh-free support radius alpha " + std::to_string(options_.alpha) + "; choose a value in [1, 6]");
 
-  const std::vector<Column> columns =
-      options_.kernel == Kernel::Wendland ? wendland(mesh, progress) : voronoi(mesh, progress);
+  const std::vector<Column> columns = options_.kernel == Kernel::Wendland  ? wendland(mesh, progress)
+                                      : options_.kernel == Kernel::Voronoi ? voronoi(mesh, progress)
+                                                                           : mls(mesh, progress);
   std::vector<double> sum(static_cast<std::size_t>(mesh.nodeCount()), 0.0);
   Eigen::VectorXi perFrame(frames());
   for (int f = 0; f < frames(); ++f) {
@@ -93,15 +96,24 @@ FrameBasis::Column FrameBasis::ball(const VoxelMesh& mesh, int frame, double rad
   return column;
 }
 
-std::vector<FrameBasis::Column> FrameBasis::wendland(const VoxelMesh& mesh, const Progress& progress) {
-  const NodeGraph graph(mesh);
-  const std::vector<int> owned = firstOwned(sites_);
+Eigen::VectorXd FrameBasis::radii(const VoxelMesh& mesh) const {
   // Every node lies well inside the ball of the frame that owns it, also in elongated Voronoi cells.
   Eigen::VectorXd radius = options_.alpha * sites_.spacing_m;
   for (int n = 0; n < mesh.nodeCount(); ++n) {
     const int f = sites_.ownerOfNode[static_cast<std::size_t>(n)];
     radius[f] = std::max(radius[f], 1.25 * (mesh.position_m(n) - sites_.position_m.col(f)).norm());
   }
+  return radius;
+}
+
+std::vector<FrameBasis::Column> FrameBasis::wendland(const VoxelMesh& mesh, const Progress& progress) {
+  return connectedBalls(mesh, radii(mesh), progress);
+}
+
+std::vector<FrameBasis::Column> FrameBasis::connectedBalls(const VoxelMesh& mesh, const Eigen::VectorXd& radius,
+                                                           const Progress& progress) {
+  const NodeGraph graph(mesh);
+  const std::vector<int> owned = firstOwned(sites_);
   std::vector<Column> columns(static_cast<std::size_t>(frames()));
   parallelChunks(columns.size(), 1, [&](std::size_t begin, std::size_t) {
     progress.check();

@@ -16,9 +16,10 @@ FrameBasis makeBasis(const VoxelMesh& mesh, const MeshfreeOptions& options, cons
   sites.iterations = options.lloydIterations;
   sites.seed = options.seed;
   sites.density = options.density;
-  sites.minimumNodes = options.order == 2 ? 64 : 27;
-  return FrameBasis(mesh, placeSites(mesh, sites, progress.part(0.0, 0.1)),
-                    {options.kernel, options.order, options.alpha}, progress.part(0.1, 0.2));
+  sites.minimumNodes = leastNodesOf(options.kernel, options.order);
+  Sites placed = options.sites_m.cols() > 0 ? sitesAt(mesh, options.sites_m, sites.minimumNodes)
+                                            : placeSites(mesh, sites, progress.part(0.0, 0.1));
+  return FrameBasis(mesh, std::move(placed), {options.kernel, options.order, options.alpha}, progress.part(0.1, 0.2));
 }
 
 void checkLoad(const NodalField& f_N, int nodeCount) {

@@ -18,11 +18,12 @@ namespace glisson::mechanics {
 struct MeshfreeOptions {
   int frames = 200;  ///< fewer are used, with a note, where the voxels are too coarse for so many
   Kernel kernel = Kernel::Wendland;
-  int order = 1;       ///< 1: affine, 12 degrees of freedom a frame; 2: quadratic, 30
-  double alpha = 0.0;  ///< Wendland support radius over spacing; 0 = 2.2 affine, 1.8 quadratic
+  int order = 1;       ///< 1: affine, 12 degrees of freedom a frame; 2: quadratic, 30; Mls: of the basis, 3 either way
+  double alpha = 0.0;  ///< support radius over spacing; 0 = the kernel's own
   std::uint64_t seed = 1;
   int lloydIterations = 25;
   std::vector<double> density;  ///< wish for frames, one positive value per filled cell; empty = uniform
+  Eigen::Matrix3Xd sites_m;     ///< where the frames are to sit (sitesAt); empty: `frames` of them are placed by Lloyd
 };
 
 /// The mesh-free model: u(x) = lift(x) + d(x) ∘ Σᵢ wᵢ(x) Σ_b P_b((x − xᵢ)/hᵢ) q_ib. Its displacements are a subspace of
@@ -34,7 +35,8 @@ struct MeshfreeOptions {
 class MeshfreeModel {
  public:
   /// Throws BadInput as VoxelOperator, placeSites, FrameBasis and distanceClamp do, and where the fixations leave no
-  /// degree of freedom. Needs at least 27 voxel nodes a frame (affine) or 64 (quadratic): see notes().
+  /// degree of freedom. Needs leastNodesOf(kernel, order) voxel nodes a frame; fewer frames are used otherwise: see
+  /// notes().
   explicit MeshfreeModel(const Problem& problem, const MeshfreeOptions& options = {},
                          HexElement element = HexElement::Incompatible, const Progress& progress = {});
 

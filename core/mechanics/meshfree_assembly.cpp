@@ -320,6 +320,8 @@ ActiveFunctions activeFunctions(const VoxelMesh& mesh, const FrameBasis& basis, 
 ReducedMatrices projectMatrices(const VoxelBody& body, const VoxelMesh& mesh, const std::vector<Spring>& springs,
                                 const FrameBasis& basis, const ActiveFunctions& active, const Clamp& clamp,
                                 HexElement element, const Progress& progress) {
+  if (basis.functions() == 1)
+    return project<1>({body, mesh, springs, basis, active, clamp, element}, active, basis.frames(), progress);
   if (basis.functions() == 4)
     return project<4>({body, mesh, springs, basis, active, clamp, element}, active, basis.frames(), progress);
   return project<10>({body, mesh, springs, basis, active, clamp, element}, active, basis.frames(), progress);

@@ -141,50 +141,20 @@ Matrix3Xd nodePositions(const VoxelMesh& mesh) {
   return p;
 }
 
-}  // namespace
-
-std::vector<int> nearestSite(const Matrix3Xd& sites, const Matrix3Xd& points) {
-  if (sites.cols() < 1) throw BadArgument("nearestSite: no sites");
-  const Buckets buckets(sites);
-  std::vector<int> owner(static_cast<std::size_t>(points.cols()));
-  parallelChunks(owner.size(), 2048, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) owner[c] = buckets.nearest(points.col(static_cast<Eigen::Index>(c)));
-  });
-  return owner;
-}
-
-Sites placeSites(const VoxelMesh& mesh, const SiteOptions& options, const Progress& progress) {
-  if (options.count < 1)
-    throw BadInput("mesh-free sites: " + std::to_string(options.count) + " frames asked for; give at least 1");
-  const auto cellCount = static_cast<std::size_t>(mesh.cellCount());
-  if (!options.density.empty() && options.density.size() != cellCount)
-    throw BadInput("mesh-free sites: the density has " + std::to_string(options.density.size()) +
-                   " values for a body of " + std::to_string(cellCount) + " filled cells");
+Cells uniformCells(const VoxelMesh& mesh) {
   Cells cells;
   cells.centre_m.resize(3, mesh.cellCount());
-  cells.weight.assign(cellCount, 1.0);
+  cells.weight.assign(static_cast<std::size_t>(mesh.cellCount()), 1.0);
   cells.volume_m3 = mesh.h_m().prod();
-  for (int c = 0; c < mesh.cellCount(); ++c) {
+  for (int c = 0; c < mesh.cellCount(); ++c)
     cells.centre_m.col(c) = (mesh.cellOf(c).cast<double>() + Vector3d::Constant(0.5)).cwiseProduct(mesh.h_m());
-    if (options.density.empty()) continue;
-    const double d = options.density[static_cast<std::size_t>(c)];
-    if (!(d > 0.0) || !std::isfinite(d))
-      throw BadInput("mesh-free sites: density " + std::to_string(d) + " at filled cell " + std::to_string(c) +
-                     "; every value must be positive and finite");
-    cells.weight[static_cast<std::size_t>(c)] = d;
-  }
+  return cells;
+}
 
+/// Drops sites until each owns `minimum` nodes (or one is left), a few Lloyd steps after each drop; sets who owns what.
+void thinOut(const VoxelMesh& mesh, const Cells& cells, int minimum, int lloydSteps, Matrix3Xd& sites, Sites& out,
+             const Progress& progress) {
   const Matrix3Xd nodes = nodePositions(mesh);
-  const int minimum = std::max(1, options.minimumNodes);
-  const int most = std::max(1, std::min(mesh.nodeCount() / minimum, mesh.cellCount()));
-  Random random(options.seed);
-  Matrix3Xd sites = firstGuess(cells, std::min(options.count, most), random);
-  for (int it = 0; it < options.iterations; ++it) {
-    progress.report(static_cast<double>(it) / options.iterations, "placing mesh-free frames");
-    lloydStep(cells, sites);
-  }
-
-  Sites out;
   while (true) {
     progress.check();
     bringInside(mesh, cells, sites);
@@ -207,19 +177,109 @@ Sites placeSites(const VoxelMesh& mesh, const SiteOptions& options, const Progre
     for (Eigen::Index s = 0; s < sites.cols(); ++s)
       if (!dropped[static_cast<std::size_t>(s)]) kept.col(k++) = sites.col(s);
     sites = std::move(kept);
-    for (int it = 0; it < 5; ++it) lloydStep(cells, sites);
+    for (int it = 0; it < lloydSteps; ++it) lloydStep(cells, sites);
   }
-  if (sites.cols() < options.count)
-    out.notes.push_back(std::to_string(sites.cols()) + " frames instead of " + std::to_string(options.count) +
-                        ": each needs at least " + std::to_string(minimum) + " of the body's " +
-                        std::to_string(mesh.nodeCount()) + " voxel nodes; use smaller voxels for more frames");
+}
 
+void measure(const Cells& cells, Matrix3Xd sites, Sites& out) {
   const std::vector<int> owner = nearestSite(sites, cells.centre_m);
   Eigen::VectorXd volume = Eigen::VectorXd::Zero(sites.cols());
   for (const int s : owner) volume[s] += cells.volume_m3;
   out.position_m = std::move(sites);
   out.spacing_m = volume.cwiseMax(cells.volume_m3).array().pow(1.0 / 3.0);
+}
+
+}  // namespace
+
+std::vector<int> nearestSite(const Matrix3Xd& sites, const Matrix3Xd& points) {
+  if (sites.cols() < 1) throw BadArgument("nearestSite: no sites");
+  const Buckets buckets(sites);
+  std::vector<int> owner(static_cast<std::size_t>(points.cols()));
+  parallelChunks(owner.size(), 2048, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) owner[c] = buckets.nearest(points.col(static_cast<Eigen::Index>(c)));
+  });
+  return owner;
+}
+
+Sites placeSites(const VoxelMesh& mesh, const SiteOptions& options, const Progress& progress) {
+  if (options.count < 1)
+    throw BadInput("mesh-free sites: " + std::to_string(options.count) + " frames asked for; give at least 1");
+  const auto cellCount = static_cast<std::size_t>(mesh.cellCount());
+  if (!options.density.empty() && options.density.size() != cellCount)
+    throw BadInput("mesh-free sites: the density has " + std::to_string(options.density.size()) +
+                   " values for a body of " + std::to_string(cellCount) + " filled cells");
+  Cells cells = uniformCells(mesh);
+  for (int c = 0; c < mesh.cellCount() && !options.density.empty(); ++c) {
+    const double d = options.density[static_cast<std::size_t>(c)];
+    if (!(d > 0.0) || !std::isfinite(d))
+      throw BadInput("mesh-free sites: density " + std::to_string(d) + " at filled cell " + std::to_string(c) +
+                     "; every value must be positive and finite");
+    cells.weight[static_cast<std::size_t>(c)] = d;
+  }
+
+  const int minimum = std::max(1, options.minimumNodes);
+  const int most = mostSites(mesh.nodeCount(), mesh.cellCount(), minimum);
+  Random random(options.seed);
+  Matrix3Xd sites = firstGuess(cells, std::min(options.count, most), random);
+  for (int it = 0; it < options.iterations; ++it) {
+    progress.report(static_cast<double>(it) / options.iterations, "placing mesh-free frames");
+    lloydStep(cells, sites);
+  }
+
+  Sites out;
+  thinOut(mesh, cells, minimum, 5, sites, out, progress);
+  if (sites.cols() < options.count)
+    out.notes.push_back(std::to_string(sites.cols()) + " frames instead of " + std::to_string(options.count) +
+                        ": each needs at least " + std::to_string(minimum) + " of the body's " +
+                        std::to_string(mesh.nodeCount()) + " voxel nodes; use smaller voxels for more frames");
+
+  measure(cells, std::move(sites), out);
   progress.report(1.0, "placing mesh-free frames");
+  return out;
+}
+
+int mostSites(double nodes, double cells, int minimumNodes) {
+  return static_cast<int>(std::max(1.0, std::min({nodes / std::max(1, minimumNodes), cells, 1e9})));
+}
+
+Sites sitesAt(const VoxelMesh& mesh, const Matrix3Xd& position_m, int minimumNodes) {
+  if (!position_m.allFinite()) throw BadInput("a mesh-free site has a coordinate that is not finite");
+  Matrix3Xd sites(3, position_m.cols());
+  Eigen::Index kept = 0, outside = 0, duplicates = 0;
+  const double near = 1e-3 * mesh.h_m().minCoeff();
+  for (Eigen::Index s = 0; s < position_m.cols(); ++s) {
+    const Vector3d p = position_m.col(s);
+    // A site on the surface belongs to the cell next to it.
+    bool inside = false;
+    for (int corner = 0; corner < 8 && !inside; ++corner) {
+      const Vector3d shift(corner & 1 ? near : -near, corner & 2 ? near : -near, corner & 4 ? near : -near);
+      const Vector3d c = (p + shift).cwiseQuotient(mesh.h_m()).array().floor();
+      if ((c.array() < 0).any() || (c.array() >= mesh.cells().cast<double>().array()).any()) continue;
+      inside = mesh.isFilled(static_cast<int>(c.x()), static_cast<int>(c.y()), static_cast<int>(c.z()));
+    }
+    if (!inside) {
+      ++outside;
+      continue;
+    }
+    if (kept > 0 && (sites.leftCols(kept).colwise() - p).colwise().norm().minCoeff() < near) {
+      ++duplicates;
+      continue;
+    }
+    sites.col(kept++) = p;
+  }
+  if (kept == 0)
+    throw BadInput("none of the " + std::to_string(position_m.cols()) + " mesh-free sites given lies in the body");
+  sites.conservativeResize(3, kept);
+  Sites out;
+  const Cells cells = uniformCells(mesh);
+  thinOut(mesh, cells, std::max(1, minimumNodes), 0, sites, out, {});
+  const auto note = [&](Eigen::Index n, const std::string& why) {
+    if (n > 0) out.notes.push_back(std::to_string(n) + " mesh-free sites left out: " + why);
+  };
+  note(outside, "they lie outside the body");
+  note(duplicates, "each lies on another one");
+  note(kept - sites.cols(), "their cells hold fewer than " + std::to_string(minimumNodes) + " voxel nodes");
+  measure(cells, std::move(sites), out);
   return out;
 }
 

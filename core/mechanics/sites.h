@@ -32,6 +32,15 @@ struct Sites {
 /// Throws BadInput where count < 1 or the density has a wrong length or a value that is not positive.
 Sites placeSites(const VoxelMesh& mesh, const SiteOptions& options, const Progress& progress = {});
 
+/// Sites at given places (3 × n, m, the grid's axes). What cannot carry a frame is left out, with a note: a site
+/// outside the body, a duplicate (closer than a thousandth of the shortest cell edge to an earlier one), and, the
+/// poorest first, sites whose cells hold fewer than minimumNodes voxel nodes. Throws BadInput where none is left or a
+/// coordinate is not finite.
+Sites sitesAt(const VoxelMesh& mesh, const Eigen::Matrix3Xd& position_m, int minimumNodes = 27);
+
+/// The most sites that placeSites gives a body of so many voxel nodes and filled cells.
+int mostSites(double nodes, double cells, int minimumNodes);
+
 /// For each point (3 × m) the index of the nearest site (3 × n, n ≥ 1), the lowest index among equals. Euclidean.
 std::vector<int> nearestSite(const Eigen::Matrix3Xd& sites, const Eigen::Matrix3Xd& points);
 

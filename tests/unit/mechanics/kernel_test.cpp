@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "base/error.h"
 #include "base/parallel.h"
 #include "mechanics/kernel_graph.h"
@@ -34,6 +36,7 @@ TEST_P(EveryKernel, IsAPartitionOfUnity) {
   const FrameBasis basis(mesh, sitesOf(mesh, 40), GetParam());
   const VectorXd sum = basis.weights() * VectorXd::Ones(basis.frames());
   EXPECT_LE((sum.array() - 1.0).abs().maxCoeff(), 1e-12);
+  if (GetParam().kernel == Kernel::Mls) return;  // moving least squares functions have negative lobes
   for (Eigen::Index k = 0; k < basis.weights().nonZeros(); ++k) EXPECT_GE(basis.weights().valuePtr()[k], 0.0);
 }
 
@@ -53,6 +56,7 @@ TEST_P(EveryKernel, ReproducesPolynomialsOfItsOrder) {
     const Vector3d x = basis.sites().position_m.col(f);
     const double h = basis.sites().spacing_m[f];
     const Vector3d slope = h * (b + A * x);
+    // The coefficients of moving least squares are values.
     std::array<double, 10> c = {g(x), slope.x(), slope.y(), slope.z()};
     if (quadratic)
       for (int a = 0; a < 3; ++a) {
@@ -65,7 +69,9 @@ TEST_P(EveryKernel, ReproducesPolynomialsOfItsOrder) {
         value[it.row()] += it.value() * P[m] * c[m];
     }
   }
-  for (int n = 0; n < mesh.nodeCount(); ++n) EXPECT_NEAR(value[n], g(mesh.position_m(n)), 1e-12) << "node " << n;
+  // At the lips of the slot a moving least squares fit hangs on few sites: its moment matrix magnifies rounding.
+  const double rounding = basis.functions() == 1 ? 1e-9 : 1e-12;
+  for (int n = 0; n < mesh.nodeCount(); ++n) EXPECT_NEAR(value[n], g(mesh.position_m(n)), rounding) << "node " << n;
 }
 
 TEST_P(EveryKernel, DoesNotJumpOverTheGapBetweenLobes) {
@@ -99,8 +105,56 @@ TEST_P(EveryKernel, SameBitsWithAnyThreads) {
 INSTANTIATE_TEST_SUITE_P(Kernels, EveryKernel,
                          testing::Values(KernelOptions{Kernel::Wendland, 1, 0.0},
                                          KernelOptions{Kernel::Wendland, 2, 0.0},
-                                         KernelOptions{Kernel::Voronoi, 1, 0.0},
-                                         KernelOptions{Kernel::Voronoi, 2, 0.0}));
+                                         KernelOptions{Kernel::Voronoi, 1, 0.0}, KernelOptions{Kernel::Voronoi, 2, 0.0},
+                                         KernelOptions{Kernel::Mls, 1, 0.0}, KernelOptions{Kernel::Mls, 2, 0.0}));
+
+VectorXd valuesAtSites(const FrameBasis& basis, const std::function<double(const Vector3d&)>& g) {
+  VectorXd v(basis.frames());
+  for (int f = 0; f < basis.frames(); ++f) v[f] = g(basis.sites().position_m.col(f));
+  return v;
+}
+
+double largestMiss(const VoxelMesh& mesh, const FrameBasis& basis, const std::function<double(const Vector3d&)>& g) {
+  const VectorXd u = basis.weights() * valuesAtSites(basis, g);
+  double worst = 0.0;
+  for (int n = 0; n < mesh.nodeCount(); ++n) worst = std::max(worst, std::abs(u[n] - g(mesh.position_m(n))));
+  return worst;
+}
+
+TEST(MovingLeastSquares, FewSitesKeepWhatTheyCanTellApart) {
+  const VoxelMesh mesh(test::box({12, 10, 8}, {0.06, 0.05, 0.04}, 1e3, 0.3));
+  const auto linear = [](const Vector3d& x) { return 0.2 + 3 * x.x() - 2 * x.y() + x.z(); };
+  // Six sites: no quadratic field can be told from them, every linear one can.
+  const FrameBasis six(mesh, sitesOf(mesh, 6), {Kernel::Mls, 2, 0.0});
+  EXPECT_FALSE(six.notes().empty());
+  EXPECT_LE(largestMiss(mesh, six, linear), 1e-12);
+  EXPECT_LE(largestMiss(mesh, six, [](const Vector3d&) { return 1.0; }), 1e-13);
+  // One site: the constant.
+  const FrameBasis one(mesh, sitesOf(mesh, 1), {Kernel::Mls, 1, 0.0});
+  EXPECT_LE(largestMiss(mesh, one, [](const Vector3d&) { return 1.0; }), 1e-13);
+  EXPECT_FALSE(one.notes().empty());
+}
+
+TEST(MovingLeastSquares, SitesInAPlaneGiveTheFieldsOfThatPlane) {
+  const VoxelMesh mesh(test::box({12, 12, 4}, {0.06, 0.06, 0.02}, 1e3, 0.3));
+  // An oblique plane: no axis of the grid lies in it or across it.
+  const Vector3d a = Vector3d(1, 0.2, 0.3), b = Vector3d(-0.1, 1, 0.1), across = a.cross(b).normalized();
+  Eigen::Matrix3Xd at(3, 25);
+  for (int i = 0; i < 25; ++i) at.col(i) = Vector3d(0.006, 0.008, 0.001) + 0.01 * (i % 5) * a + 0.01 * (i / 5) * b;
+  for (const int order : {1, 2}) {
+    const FrameBasis basis(mesh, sitesAt(mesh, at, 1), {Kernel::Mls, order, 0.0});
+    ASSERT_EQ(basis.frames(), 25);
+    EXPECT_FALSE(basis.notes().empty());
+    const VectorXd sum = basis.weights() * VectorXd::Ones(25);
+    EXPECT_LE((sum.array() - 1.0).abs().maxCoeff(), 1e-12);
+    const Vector3d within = (a - across * across.dot(a)).normalized();
+    EXPECT_LE(largestMiss(mesh, basis, [&](const Vector3d& x) { return 1 + 2 * within.dot(x); }), 1e-10) << order;
+    // What varies across the plane is taken as it is on the plane: bounded, not extrapolated.
+    const VectorXd u = basis.weights() * valuesAtSites(basis, [&](const Vector3d& x) { return across.dot(x); });
+    const double plane = across.dot(Vector3d(at.col(0)));
+    EXPECT_LE((u.array() - plane).abs().maxCoeff(), 1e-10) << order;
+  }
+}
 
 TEST(VoronoiKernel, IsOneAtTheSiteHalfAtTheBorderZeroAtTheNeighbour) {
   // Two sites in a straight bar: the ratio of distances is linear between them.

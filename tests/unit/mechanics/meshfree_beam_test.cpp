@@ -77,13 +77,19 @@ TEST_P(Beam, QuadraticFramesMeetTheGoalAndBeatTheVoronoiKernel) {
     for (std::size_t i = 0; i < w.size(); ++i) axis = std::max(axis, std::abs(w[i] - same[i]));
     std::printf(
         "  %-8s order %d, %4d dofs: tip %.4f mm, error against 3-D %.4f, along the axis against its own voxels %.4f\n",
-        kernel == Kernel::Voronoi ? "Voronoi" : "Wendland", order, model.dofs(), w.back(), std::abs(w.back() - tip_mm),
-        axis);
+        kernel == Kernel::Voronoi ? "Voronoi"
+        : kernel == Kernel::Mls   ? "MLS"
+                                  : "Wendland",
+        order, model.dofs(), w.back(), std::abs(w.back() - tip_mm), axis);
     return Errors{std::abs(w.back() - tip_mm), axis};
   };
   const Errors faithful720 = error(Kernel::Voronoi, 1, 60), faithful1800 = error(Kernel::Voronoi, 1, 150);
   const Errors affine720 = error(Kernel::Wendland, 1, 60), affine1800 = error(Kernel::Wendland, 1, 150);
   const Errors ours720 = error(Kernel::Wendland, 2, 24), ours1800 = error(Kernel::Wendland, 2, 60);
+  const Errors mlsLinear = error(Kernel::Mls, 1, 240), mls720 = error(Kernel::Mls, 2, 240);
+  EXPECT_LT(mls720.axis_mm, 0.2 * mlsLinear.axis_mm);
+  EXPECT_LT(mls720.axis_mm, 0.1 * faithful720.axis_mm);
+  if (poisson < 0.4) EXPECT_LE(mls720.tip_mm, allowed_mm);
   EXPECT_LE(ours1800.tip_mm, allowed_mm);
   EXPECT_LT(ours1800.axis_mm, ours720.axis_mm);
   EXPECT_LT(ours720.axis_mm, affine720.axis_mm);

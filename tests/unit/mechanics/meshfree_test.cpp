@@ -41,7 +41,8 @@ MeshfreeOptions framesOf(const KernelOptions& kernel, int frames) {
   MeshfreeOptions o;
   o.kernel = kernel.kernel;
   o.order = kernel.order;
-  o.frames = frames;
+  // As many functions, whatever a frame carries.
+  o.frames = kernel.kernel == Kernel::Mls ? frames * (kernel.order == 1 ? 4 : 10) : frames;
   return o;
 }
 
@@ -153,7 +154,8 @@ TEST_P(EveryFrame, SameBitsWithAnyNumberOfThreads) {
 INSTANTIATE_TEST_SUITE_P(Frames, EveryFrame,
                          testing::Values(KernelOptions{Kernel::Wendland, 1, 0.0},
                                          KernelOptions{Kernel::Wendland, 2, 0.0},
-                                         KernelOptions{Kernel::Voronoi, 1, 0.0}));
+                                         KernelOptions{Kernel::Voronoi, 1, 0.0}, KernelOptions{Kernel::Mls, 1, 0.0},
+                                         KernelOptions{Kernel::Mls, 2, 0.0}));
 
 TEST(Meshfree, SmallerSpacesInsideLargerOnesStoreLessEnergy) {
   // Affine frames lie inside quadratic ones on the same sites and supports.
@@ -213,6 +215,47 @@ TEST(Meshfree, TooFewVoxelsAreNoted) {
   EXPECT_LT(model.frames(), 12);
   ASSERT_FALSE(model.notes().empty());
   EXPECT_NE(model.notes()[0].find("instead of 200"), std::string::npos);
+}
+
+TEST(Meshfree, DuplicateAndStraySitesAreLeftOutWithANote) {
+  Problem p = lump();
+  holdFace(p);
+  for (const KernelOptions& kernel : {KernelOptions{Kernel::Wendland, 1, 0.0}, KernelOptions{Kernel::Mls, 1, 0.0}}) {
+    MeshfreeOptions good = framesOf(kernel, 6);
+    good.sites_m = MeshfreeModel(p, good).basis().sites().position_m;
+    const Solution clean = MeshfreeModel(p, good).solveStatic();
+    MeshfreeOptions bad = good;
+    const Eigen::Index n = good.sites_m.cols();
+    bad.sites_m.conservativeResize(3, n + 3);
+    bad.sites_m.col(n) = good.sites_m.col(2);
+    bad.sites_m.col(n + 1) = good.sites_m.col(0) + Vector3d(1e-7, 0, 0);
+    bad.sites_m.col(n + 2) = Vector3d(1.0, 0, 0);
+    const MeshfreeModel model(p, bad);
+    EXPECT_EQ(model.frames(), n);
+    EXPECT_GE(model.notes().size(), 2u);
+    EXPECT_EQ(model.solveStatic().u_m, clean.u_m);
+  }
+  MeshfreeOptions nowhere;
+  nowhere.sites_m = Vector3d(1.0, 0, 0);
+  EXPECT_THROW(MeshfreeModel(p, nowhere), BadInput);
+  nowhere.sites_m(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(MeshfreeModel(p, nowhere), BadInput);
+}
+
+TEST(Meshfree, CoplanarSitesGiveAFiniteConvergedAnswer) {
+  Problem p = lump();
+  holdFace(p);
+  for (const int order : {1, 2}) {
+    MeshfreeOptions o = framesOf({Kernel::Mls, order, 0.0}, 1);
+    o.sites_m.resize(3, 16);
+    for (int i = 0; i < 16; ++i) o.sites_m.col(i) = Vector3d(0.004 + 0.006 * (i % 4), 0.004 + 0.005 * (i / 4), 0.01);
+    const MeshfreeModel model(p, o);
+    EXPECT_FALSE(model.notes().empty());
+    const Solution s = model.solveStatic();
+    EXPECT_TRUE(s.report.converged());
+    EXPECT_TRUE(s.u_m.allFinite());
+    EXPECT_LT(s.energy_J, solveStatic(p).energy_J * (1.0 + 1e-7));
+  }
 }
 
 TEST(Meshfree, RefusesWhatItCannotSolve) {
