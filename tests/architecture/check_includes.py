@@ -16,6 +16,7 @@ MAY = {
     "dicom": ["base", "image"],
     "roi": ["base", "image"],
     "elastography": ["base", "image", "dicom", "roi"],
+    "inversion": ["base", "image", "elastography"],
     "anatomy": ["base", "image", "roi", "elastography"],
     "mechanics": ["base"],
     "retraction": ["base", "image", "elastography", "anatomy", "mechanics"],
