@@ -1,8 +1,11 @@
 #include "pipeline/plan.h"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "image/io.h"
+#include "mechanics/sites.h"
 #include "pipeline/detail/needs.h"
 
 namespace glisson::pipeline {
@@ -26,7 +29,7 @@ Needs::Needs(const Scene& s) {
   damping = timeSteps && (s.setup.analysis.rayleigh[0] > 0 || s.setup.analysis.rayleigh[1] > 0);
   newton = s.setup.kinematics != retraction::Kinematics::Linear;
   condensed = s.setup.condensed;
-  discretisation = !timeSteps && !newton && s.setup.model.kind != retraction::ModelKind::FemTet;
+  discretisation = !timeSteps;
   compare = s.compare.has_value();
   cellField = pictures || compare || s.outputs.displacementField;
   for (const retraction::LoadSpec& load : s.setup.loads)
@@ -53,13 +56,51 @@ double predictCells(const Scene& s) {
   return ordinaryLiver_mm3 / cell_mm3;
 }
 
+/// Number of nodes, exactly for a box.
+double predictNodes(const Scene& s, double cells) {
+  if (s.geometry.kind == GeometrySpec::Kind::Box) {
+    const Eigen::Array3d n = s.geometry.size_mm.cwiseQuotient(s.geometry.cell_mm).array().round().max(1.0);
+    return (n + 1.0).prod();
+  }
+  return 1.1 * cells;
+}
+
+/// Frames that the voxels have room for, and what they are, in words.
+struct Frames {
+  int count = 0;
+  double dofs = 0.0;
+  std::string why;
+};
+
+Frames predictFrames(const mechanics::MeshfreeOptions& o, double nodes, double cells) {
+  const int least = mechanics::leastNodesOf(o.kernel, o.order);
+  Frames f;
+  f.count = std::min(o.frames, mechanics::mostSites(nodes, cells, least));
+  f.dofs = 3.0 * mechanics::functionsOf(o.kernel, o.order) * f.count;
+  std::ostringstream t;
+  if (f.count < o.frames)
+    t << "at most " << f.count << " of the " << o.frames << " frames asked for";
+  else
+    t << f.count << " frames";
+  t << (o.kernel == mechanics::Kernel::Mls       ? ", moving least squares"
+        : o.kernel == mechanics::Kernel::Voronoi ? ", Voronoi kernel"
+                                                 : ", Wendland kernel")
+    << (o.order == 1 ? ", order 1" : ", order 2") << ": each needs at least " << least << " of about "
+    << static_cast<long long>(nodes) << " voxel nodes";
+  f.why = t.str();
+  return f;
+}
+
 }  // namespace
 
 std::vector<PlanStep> plan(const Scene& s) {
   const detail::Needs n(s);
   const double cells = predictCells(s);
-  const double dofs =
-      n.meshfree ? s.setup.model.meshfree.frames * (s.setup.model.meshfree.order == 2 ? 30.0 : 12.0) : 3.3 * cells;
+  const bool tets = s.setup.model.kind == retraction::ModelKind::FemTet;
+  const double nodes = predictNodes(s, cells);
+  const Frames frames = predictFrames(s.setup.model.meshfree, nodes, cells);
+  // A T10 mesh has a node in the middle of each of the seven edges that a voxel adds.
+  const double dofs = n.meshfree ? frames.dofs : tets && s.setup.model.quadraticTets ? 24.0 * nodes : 3.0 * nodes;
   // Bytes per degree of freedom of the multigrid solve (vectors, hierarchy), and seconds per degree of freedom, one
   // solve.
   const double solve_MB = 250e-6 * 3.3 * cells;
@@ -93,8 +134,11 @@ std::vector<PlanStep> plan(const Scene& s) {
           std::to_string(static_cast<long long>(dofs)) + " degrees of freedom",
       0.1, 40e-6 * cells);
   add("assembled-stiffness-matrix", false, "one modulus per voxel is enough: K is applied, not stored");
-  add("mesh-free-frames", n.meshfree, n.meshfree ? "the model is mesh-free" : "the model is voxel finite elements", 2.0,
-      100);
+  add("mesh-free-frames", n.meshfree,
+      n.meshfree ? frames.why
+      : tets     ? "the model is tetrahedra"
+                 : "the model is voxel finite elements",
+      2.0, 100);
   add("mass-matrix", n.mass, n.mass ? "the analysis is dynamic" : "the analysis is static: inertia plays no part", 0.1);
   add("damping", n.damping,
       n.damping     ? "Rayleigh damping is given"
@@ -110,8 +154,8 @@ std::vector<PlanStep> plan(const Scene& s) {
   add("discretisation-error", n.discretisation,
       n.discretisation
           ? "the answer says how far its cells let it be believed: a second solve on cells of twice the edge"
-          : "estimated for static, linear scenes on voxels only",
-      n.meshfree ? 1.2 * solve_s : 0.15 * solve_s, solve_MB / 8);
+          : "estimated for static answers only",
+      n.meshfree ? 1.2 * solve_s : (n.newton ? 1.5 : 0.15) * solve_s, solve_MB / 8);
   add("condensed-response", n.condensed,
       n.condensed ? "the solver is \"condensed\"" : "one load case: a response matrix would not pay");
   add("atlas-solve", n.compare,

@@ -109,6 +109,11 @@ std::string runRecord(const Scene& scene, const RunResult& r) {
                 {"cells", r.model.cells},
                 {"volume_mL", r.model.volume_mL},
                 {"mass_kg", r.model.mass_kg}};
+  if (scene.setup.model.kind == retraction::ModelKind::Meshfree) {
+    j["model"]["frames"] = r.primary.frames;
+    j["model"]["frames_asked"] = scene.setup.model.meshfree.frames;
+    j["model"]["notes"] = r.primary.notes;
+  }
   j.update(resultToJson(r.primary, scene));
   if (r.discretisation) {
     const retraction::DiscretisationError& e = *r.discretisation;

@@ -62,6 +62,10 @@ class Steps {
           s.peak_MB = peak_MB();
         }
   }
+  void explain(const std::string& name, const std::string& why) {
+    for (PlanStep& s : plan_)
+      if (s.step == name) s.why = why;
+  }
   void leaveOut(const std::string& name, const std::string& why) {
     for (PlanStep& s : plan_)
       if (s.step == name) {
@@ -93,6 +97,13 @@ bool followsByScaling(const Scene& scene, const retraction::Model& model, const 
     if (f != factor) return false;
   }
   return true;
+}
+
+std::string framesInWords(const mechanics::MeshfreeOptions& asked, const retraction::Result& r) {
+  std::string text = std::to_string(r.frames) + " frames, " + std::to_string(r.dofs) + " degrees of freedom";
+  if (r.frames < asked.frames) text += " (" + std::to_string(asked.frames) + " frames were asked for)";
+  for (const std::string& note : r.notes) text += "; " + note;
+  return text;
 }
 
 }  // namespace
@@ -137,6 +148,10 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     r.primary = retraction::simulate(r.model, scene.setup, scene.outputs.probes_mm, p);
   });
   r.warnings.insert(r.warnings.end(), r.primary.notes.begin(), r.primary.notes.end());
+  if (scene.setup.model.kind == retraction::ModelKind::Meshfree)
+    steps.explain("mesh-free-frames", framesInWords(scene.setup.model.meshfree, r.primary));
+  if (!options.discretisation)
+    steps.leaveOut("discretisation-error", "a study that measures errors itself does without the estimate");
   if (r.primary.solver.converged())
     steps.run("discretisation-error", [&](const Progress& p) {
       r.discretisation = retraction::discretisationError(r.model, scene.setup, r.primary, p);

@@ -20,6 +20,7 @@ namespace glisson::pipeline {
 struct RunOptions {
   std::filesystem::path output;  ///< folder for results and pictures; empty: nothing is written
   render::Palette palette = render::Palette::RedBlue;
+  bool discretisation = true;  ///< false: a study that measures errors itself does without the estimate
 };
 
 /// What one run gives. What was not asked for is empty.

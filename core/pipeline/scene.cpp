@@ -218,9 +218,10 @@ retraction::ModelSpec readModel(JsonObject o) {
     m.kind = retraction::ModelKind::Meshfree;
     m.meshfree.frames = o.integer("frames", 200);
     if (m.meshfree.frames < 1) o.fail("frames", "must be at least 1");
-    m.meshfree.kernel = o.word("kernel", {"voronoi", "wendland"}, "wendland") == "voronoi"
-                            ? mechanics::Kernel::Voronoi
-                            : mechanics::Kernel::Wendland;
+    const std::string kernel = o.word("kernel", {"voronoi", "wendland", "mls"}, "wendland");
+    m.meshfree.kernel = kernel == "voronoi" ? mechanics::Kernel::Voronoi
+                        : kernel == "mls"   ? mechanics::Kernel::Mls
+                                            : mechanics::Kernel::Wendland;
     m.meshfree.order = o.integer("order", 1);
     if (m.meshfree.order != 1 && m.meshfree.order != 2) o.fail("order", "must be 1 (affine) or 2 (quadratic)");
   } else if (kind == "fem-hex") {

@@ -131,7 +131,9 @@ Json toJson(const retraction::ModelSpec& m) {
   if (m.kind == retraction::ModelKind::Meshfree)
     return {{"kind", "meshfree"},
             {"frames", m.meshfree.frames},
-            {"kernel", m.meshfree.kernel == mechanics::Kernel::Voronoi ? "voronoi" : "wendland"},
+            {"kernel", m.meshfree.kernel == mechanics::Kernel::Voronoi ? "voronoi"
+                       : m.meshfree.kernel == mechanics::Kernel::Mls   ? "mls"
+                                                                       : "wendland"},
             {"order", m.meshfree.order}};
   if (m.kind == retraction::ModelKind::FemTet)
     return {{"kind", "fem-tet"}, {"element", m.quadraticTets ? "T10" : "T4"}};

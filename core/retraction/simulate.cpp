@@ -24,8 +24,10 @@ constexpr double mToMm = 1e3;
 struct Answer {
   mechanics::Solution solution;
   int dofs = 0;
+  int frames = 0;
   int steps = 0;
   std::vector<std::string> notes;
+  std::vector<std::string> limits;  ///< what the mesh-free model could not give as asked for
 };
 
 mechanics::DynamicOptions dynamicOptions(const AnalysisSpec& a) {
@@ -116,7 +118,9 @@ Answer solve(const Body& body, const MechanicsScene& scene, const Setup& setup, 
   if (setup.model.kind == ModelKind::Meshfree) {
     const mechanics::MeshfreeModel model(problem, setup.model.meshfree, setup.model.element, progress.part(0.0, 0.5));
     a.dofs = model.dofs();
+    a.frames = model.frames();
     a.notes = model.notes();
+    a.limits = model.basis().notes();
     if (setup.analysis.dynamic) {
       mechanics::DynamicSolution d =
           mechanics::solveDynamic(model, dynamicOptions(setup.analysis), options, progress.part(0.5, 1.0));
@@ -209,6 +213,7 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
   const mechanics::Solution& s = answer.solution;
   r.solver = s.report;
   r.dofs = answer.dofs;
+  r.frames = answer.frames;
   r.steps = answer.steps;
   r.notes = std::move(answer.notes);
   r.energy_J = s.energy_J;
@@ -218,6 +223,7 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
 
   r.kinematics = setup.kinematics;
   judge(body, s, r);
+  for (const std::string& limit : answer.limits) r.validity.push_back("mesh-free model: " + limit);
   if (scene.contact) {
     r.retractorPoint_mm = scene.contact->centre_mm;
     r.contactArea_mm2 = scene.contact->area_mm2;
@@ -255,6 +261,7 @@ Result scaled(const Model& model, const Setup& setup, const std::vector<Eigen::V
   answer.solution.report.why = "proportional to the other answer";
   answer.solution.reaction_N = mechanics::NodalField::Zero(3, result.nodal_u_m.cols());
   answer.dofs = result.dofs;
+  answer.frames = result.frames;
   Result r = readBack(model, body, scene, setup, std::move(answer), probes_mm);
   r.reaction_N = result.reaction_N;
   return r;

@@ -33,7 +33,8 @@ struct Result {
   std::vector<Eigen::Vector3d> probe_u_mm;  ///< one per probe, LPS
   std::vector<std::string> notes;           ///< what the model changed, probes that lie outside
   int dofs = 0;
-  int steps = 0;  ///< time steps; 0 when static
+  int frames = 0;  ///< that were placed; 0 where the model is not mesh-free
+  int steps = 0;   ///< time steps; 0 when static
   mechanics::SolveReport solver;
   Eigen::Vector3d load_N = Eigen::Vector3d::Zero();      ///< sum of applied forces, LPS
   Eigen::Vector3d reaction_N = Eigen::Vector3d::Zero();  ///< sum of support forces, LPS

@@ -89,7 +89,9 @@ TEST_P(Beam, QuadraticFramesMeetTheGoalAndBeatTheVoronoiKernel) {
   const Errors mlsLinear = error(Kernel::Mls, 1, 240), mls720 = error(Kernel::Mls, 2, 240);
   EXPECT_LT(mls720.axis_mm, 0.2 * mlsLinear.axis_mm);
   EXPECT_LT(mls720.axis_mm, 0.1 * faithful720.axis_mm);
-  if (poisson < 0.4) EXPECT_LE(mls720.tip_mm, allowed_mm);
+  if (poisson < 0.4) {
+    EXPECT_LE(mls720.tip_mm, allowed_mm);
+  }
   EXPECT_LE(ours1800.tip_mm, allowed_mm);
   EXPECT_LT(ours1800.axis_mm, ours720.axis_mm);
   EXPECT_LT(ours720.axis_mm, affine720.axis_mm);
