@@ -13,6 +13,9 @@ namespace {
 
 constexpr int maxDepth = 64;
 constexpr std::size_t maxElements = 2'000'000;
+constexpr int plainDepth = 6;
+constexpr std::size_t plainElements = 100'000;
+constexpr std::uint64_t plainHeaderBytes = 32ULL * 1024 * 1024;
 constexpr std::uint64_t maxHeaderBytes = 128ULL * 1024 * 1024;
 constexpr std::uint32_t undefinedLength = 0xFFFFFFFFU;
 constexpr std::uint32_t itemTag = 0xFFFEE000U;
@@ -104,10 +107,13 @@ class Walker {
       fatal_ = true;
       throw BadInput("nests sequences more than 64 deep" + at(begin) + "; it is refused");
     }
+    deepest_ = std::max(deepest_, depth);
     std::uint64_t here = begin;
     std::uint32_t last = 0;
     while (here < end) {
       if (depth == 0 && end - here < 8) {
+        for (const std::uint8_t byte : source_.bytes(here, end - here))
+          if (byte != 0 && !layout_.pixels) throw BadInput("ends within a data element (truncated header)" + at(here));
         warn("has " + std::to_string(end - here) + " stray bytes at its end");
         break;
       }
@@ -130,6 +136,8 @@ class Walker {
 
   /// Whether what was found is to be refused wherever it stands.
   bool fatal() const { return fatal_; }
+  int deepest() const { return deepest_; }
+  std::size_t elements() const { return elements_; }
 
  private:
   std::uint16_t number16(std::uint64_t offset, bool big) const {
@@ -256,6 +264,7 @@ class Walker {
   FileLayout& layout_;
   std::map<std::uint32_t, Element> top_;
   std::size_t elements_ = 0;
+  int deepest_ = 0;
   bool fatal_ = false;
 };
 
@@ -318,6 +327,18 @@ void checkEncoding(const ByteSource& source, Walker& walker, FileLayout& layout)
 
 }  // namespace
 
+bool isDeflated(const ByteSource& source) {
+  if (source.size() < 140) return false;
+  std::array<char, 4> magic{};
+  source.read(128, magic.data(), 4);
+  FileLayout layout;
+  Walker walker(source, layout);
+  const bool preamble = std::memcmp(magic.data(), "DICM", 4) == 0;
+  if (!preamble && walker.tagAt(0, false) >> 16 != 0x0002) return false;
+  readMeta(source, walker, layout, preamble ? 132 : 0);
+  return layout.transferSyntax == "1.2.840.10008.1.2.1.99";
+}
+
 FileLayout readLayout(ByteSource& source) {
   if (source.size() == 0) throw BadInput("is empty");
   if (source.size() < 16) throw BadInput("is too short to be a DICOM file");
@@ -373,6 +394,12 @@ FileLayout readLayout(ByteSource& source) {
                    (compressed ? "uncompressed" : "compressed") + " ones");
   if (layout.headerEnd - layout.datasetOffset > maxHeaderBytes)
     throw BadInput("has a header of more than 128 MiB; it is refused");
+  const auto harmless = [](const std::string& w) {
+    return w == "has no DICOM preamble" || w == "has no file meta information";
+  };
+  layout.plain = syntax != "1.2.840.10008.1.2.1.99" && !compressed && walker.deepest() <= plainDepth &&
+                 walker.elements() <= plainElements && layout.headerEnd - layout.datasetOffset <= plainHeaderBytes &&
+                 std::all_of(layout.warnings.begin(), layout.warnings.end(), harmless);
   return layout;
 }
 

@@ -62,7 +62,13 @@ struct FileLayout {
   std::uint64_t headerEnd = 0;  ///< where the pixel element begins, or the end of the data set
   std::optional<PixelElement> pixels;
   std::vector<std::string> warnings;
+  /// Nothing but what scanners write every day: see readLayout.
+  bool plain = false;
 };
+
+/// Whether the file meta information says that the data set is deflated. Never inflates. Throws BadInput where the meta
+/// information is damaged.
+bool isDeflated(const ByteSource& source);
 
 /// Largest number of bytes that one file may grow to in memory: 256 MiB and three times its size.
 std::uint64_t memoryBudget(std::uint64_t fileBytes);
@@ -71,6 +77,8 @@ std::uint64_t memoryBudget(std::uint64_t fileBytes);
 /// does not name the file: empty, not DICOM, unknown or lying transfer syntax, element beyond the end of the file,
 /// truncated pixel data, more than 64 nested sequences, an image-size attribute with another value representation than
 /// US, an element that occurs twice with different values.
+/// Sets plain where the data set is neither deflated nor compressed, at most 6 sequences deep, of at most 100,000
+/// elements and 32 MiB before the pixels, and where nothing is odd about it (no warning but a missing preamble).
 FileLayout readLayout(ByteSource& source);
 
 }  // namespace glisson::dicom

@@ -10,7 +10,8 @@
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include "dicom/frame_groups.h"
-#include "dicom/pixels.h"
+#include "dicom/siemens.h"
+#include "dicom/stored_frames.h"
 
 namespace glisson::dicom {
 namespace {
@@ -127,15 +128,20 @@ std::string unitOf(DcmDataset& data) {
   return type == "US" ? std::string() : type;
 }
 
-}  // namespace
+/// Whether the pixels may hold text about the patient: it says so, or it is a picture of a screen that does not deny
+/// it.
+bool saysBurnedIn(DcmDataset& data, const std::string& sopClass) {
+  const std::string said = text(data, DCM_BurnedInAnnotation);
+  return said == "YES" || (said != "NO" && sopClass.starts_with(UID_SecondaryCaptureImageStorage));
+}
 
-ImageHeader readImageHeader(const std::filesystem::path& file, ByteSource& source) {
+ImageHeader parsed(const std::filesystem::path& file, const ByteSource& source, const FileLayout& layout,
+                   std::uint64_t fileBytes) {
   ImageHeader h;
   h.file = file;
+  h.layout = layout;
   bool image = true;
   try {
-    const std::uint64_t fileBytes = source.size();
-    h.layout = readLayout(source);
     DcmDataset data;
     parseHeader(source, h.layout, data);
     h.warnings = h.layout.warnings;
@@ -164,19 +170,25 @@ ImageHeader readImageHeader(const std::filesystem::path& file, ByteSource& sourc
     h.manufacturer = shownText(data, DCM_Manufacturer);
     h.sequenceName = shownText(data, DcmTagKey(0x0019, 0x109C));
     if (h.sequenceName.empty()) h.sequenceName = shownText(data, DCM_SequenceName);
-    h.mosaic = h.imageType.find("MOSAIC") != std::string::npos;
-    h.lossy = text(data, DCM_LossyImageCompression) == "01" || isLossy(h.layout.transferSyntax);
+    h.lossy =
+        text(data, DCM_LossyImageCompression) == "01" || isLossy(h.layout.transferSyntax) || hasLossyWavelet(h, source);
+    h.burnedIn = saysBurnedIn(data, h.sopClassUid);
+    h.studyDate = shownText(data, DCM_StudyDate).substr(0, 16);
+    h.step = elastographyStep(text(data, DCM_ImageComments));
     if (h.lossy) h.warnings.push_back("was compressed with loss: its values are not the measured ones");
     try {
       const double value = number(data, DCM_SeriesNumber).value_or(0.0);
       if (std::abs(value) < 2e9) h.seriesNumber = static_cast<int>(value);
+      const double instance = number(data, DCM_InstanceNumber).value_or(0.0);
+      if (std::abs(instance) < 2e9) h.instanceNumber = static_cast<int>(instance);
     } catch (const BadInput&) {
-      h.warnings.push_back(nameOf(DCM_SeriesNumber) + " is no number");
+      h.warnings.push_back(nameOf(DCM_SeriesNumber) + " or " + nameOf(DCM_InstanceNumber) + " is no number");
     }
     h.unit = unitOf(data);
     readPixelDescription(data, h);
     const std::uint64_t frames = checkedFrameCount(data, h, source, fileBytes);
     readFrames(data, frames, h);
+    if (h.imageType.find("MOSAIC") != std::string::npos && frames == 1) expandMosaic(data, h);
     return h;
   } catch (const BadInput& e) {
     RefusedFile refused;
@@ -189,6 +201,25 @@ ImageHeader readImageHeader(const std::filesystem::path& file, ByteSource& sourc
     if (image) refused.seriesUid = h.seriesUid;
     throw refused;
   }
+}
+
+}  // namespace
+
+ImageHeader readImageHeader(const std::filesystem::path& file, ByteSource& source) {
+  const std::uint64_t fileBytes = source.size();
+  FileLayout layout;
+  try {
+    layout = readLayout(source);
+  } catch (const BadInput& e) {
+    RefusedFile refused;
+    refused.reason = e.what();
+    throw refused;
+  }
+  return parsed(file, source, layout, fileBytes);
+}
+
+ImageHeader readImageHeader(const std::filesystem::path& file, const ByteSource& source, const FileLayout& layout) {
+  return parsed(file, source, layout, source.size());
 }
 
 }  // namespace glisson::dicom

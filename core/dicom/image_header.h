@@ -36,12 +36,28 @@ struct Frame {
   std::vector<std::pair<std::string, std::string>> kinds;
 };
 
+/// How the slices of a Siemens mosaic lie in its one picture: row by row, perRow beside each other.
+struct MosaicTile {
+  int rows = 0;  ///< of one slice; 0 where the image is no mosaic
+  int columns = 0;
+  int perRow = 0;
+};
+
+/// The step of a raw elastography acquisition that an image belongs to; -1 or 0 where unknown.
+struct ElastographyStep {
+  int direction = -1;  ///< of motion encoding, from 0
+  int time = -1;       ///< time step in the vibration period, from 0
+  int frequency = -1;  ///< from 0
+  double vibration_Hz = 0.0;
+};
+
 /// What the header of one image file says, checked. Text has been cleaned of control characters.
 struct ImageHeader {
   std::filesystem::path file;
   FileLayout layout;
   std::string seriesUid, studyUid, frameOfReferenceUid, sopInstanceUid, sopClassUid;
   std::string patientKey;
+  std::string studyDate;  ///< to compare, never to show
   std::string modality, description, imageType, manufacturer, sequenceName, unit;
   int seriesNumber = 0;
   int rows = 0;
@@ -51,13 +67,21 @@ struct ImageHeader {
   int bitsStored = 16;
   bool isSigned = false;
   bool palette = false;
-  bool mosaic = false;
   bool lossy = false;
+  bool burnedIn = false;  ///< says that its pixels hold text about the patient
+  bool isolated = false;  ///< was parsed in a reader process, which decodes its pixels too
+  int instanceNumber = 0;
+  MosaicTile tile;
+  ElastographyStep step;
   PixelKind kind = PixelKind::Integer;
-  std::vector<Frame> frames;
+  std::vector<Frame> frames;  ///< of a mosaic: its slices
   std::vector<std::string> warnings;
 
+  bool isMosaic() const { return tile.rows > 0; }
+  int sliceRows() const { return isMosaic() ? tile.rows : rows; }
+  int sliceColumns() const { return isMosaic() ? tile.columns : columns; }
   bool colour() const { return samples > 1 || palette; }
+  /// Of one stored picture: a frame, or a whole mosaic.
   std::uint64_t frameBytes() const {
     return static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns) *
            static_cast<std::uint64_t>(samples) * static_cast<std::uint64_t>(bitsAllocated / 8);
@@ -71,7 +95,10 @@ struct RefusedFile : std::exception {
   const char* what() const noexcept override { return reason.c_str(); }
 };
 
-/// Reads and checks the header of an image. Throws RefusedFile, with a reason that does not repeat the file's name.
+/// Reads and checks the header of an image in this process. Throws RefusedFile, with a reason that does not repeat the
+/// file's name. For files of unknown origin: readHeaderSafely (reader_process.h).
 ImageHeader readImageHeader(const std::filesystem::path& file, ByteSource& source);
+/// The same where the layout is known already.
+ImageHeader readImageHeader(const std::filesystem::path& file, const ByteSource& source, const FileLayout& layout);
 
 }  // namespace glisson::dicom

@@ -1,38 +1,11 @@
 #include "dicom/pixels.h"
 
-#include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dcrledrg.h>
-#include <dcmtk/dcmdata/dctk.h>
-#include <dcmtk/dcmjpeg/djdecode.h>
-#include <dcmtk/dcmjpls/djdecode.h>
-
-#include <algorithm>
 #include <cstring>
-#include <map>
-#include <mutex>
 
 #include "base/error.h"
 
 namespace glisson::dicom {
 namespace {
-
-void registerCodecs() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    DcmRLEDecoderRegistration::registerCodecs();
-    DJDecoderRegistration::registerCodecs();
-    DJLSDecoderRegistration::registerCodecs();
-  });
-}
-
-bool isRle(const std::string& syntax) {
-  return syntax == UID_RLELosslessTransferSyntax;
-}
-
-std::string sizeText(int width, int height, int components) {
-  return std::to_string(width) + " x " + std::to_string(height) + " pixels of " + std::to_string(components) +
-         " sample(s)";
-}
 
 /// Turns stored bytes (little endian) into values. bits: stored bits of an integer; the rest are overlays or padding.
 template <typename Word>
@@ -63,150 +36,56 @@ void convertReals(const std::uint8_t* bytes, std::size_t count, const Rescale& r
 
 }  // namespace
 
-std::optional<std::string> undecodable(const std::string& transferSyntax) {
-  static const std::map<std::string, std::string> codecs = {
-      {UID_JPEG2000LosslessOnlyTransferSyntax, "JPEG 2000"},
-      {UID_JPEG2000TransferSyntax, "JPEG 2000"},
-      {UID_JPEG2000Part2MulticomponentImageCompressionLosslessOnlyTransferSyntax, "JPEG 2000"},
-      {UID_JPEG2000Part2MulticomponentImageCompressionTransferSyntax, "JPEG 2000"},
-      {"1.2.840.10008.1.2.4.201", "High-Throughput JPEG 2000"},
-      {"1.2.840.10008.1.2.4.202", "High-Throughput JPEG 2000"},
-      {"1.2.840.10008.1.2.4.203", "High-Throughput JPEG 2000"},
-      {"1.2.840.10008.1.2.8.1", "deflated image frame"}};
-  static const std::string jpeg = "1.2.840.10008.1.2.4.";
-  const auto known = codecs.find(transferSyntax);
-  if (known == codecs.end()) {
-    static constexpr const char* decodable[] = {"50", "51", "53", "55", "57", "70", "80", "81"};
-    const bool other =
-        transferSyntax.starts_with(jpeg) && std::none_of(std::begin(decodable), std::end(decodable),
-                                                         [&](const char* end) { return transferSyntax == jpeg + end; });
-    if (!other) return {};
-    return "its pixels are compressed with a codec that is not supported (transfer syntax " + transferSyntax +
-           "); convert it to an uncompressed transfer syntax";
-  }
-  return "its pixels are compressed as " + known->second + ", which is not supported (transfer syntax " +
-         transferSyntax + "); convert it to an uncompressed transfer syntax";
-}
-
-bool isLossy(const std::string& transferSyntax) {
-  return transferSyntax == UID_JPEGProcess1TransferSyntax || transferSyntax == UID_JPEGProcess2_4TransferSyntax ||
-         transferSyntax == UID_JPEGProcess6_8TransferSyntax || transferSyntax == UID_JPEGProcess10_12TransferSyntax ||
-         transferSyntax == UID_JPEGLSLossyTransferSyntax;
-}
-
-struct PixelReader::Decoder {
-  DcmFileFormat file;
-  DcmPixelData* pixels = nullptr;
-  Uint32 fragment = 0;
-};
-
-PixelReader::PixelReader(const ImageHeader& header, const ByteSource& source) : header_(header), source_(source) {
-  if (const auto why = undecodable(header.layout.transferSyntax)) throw BadInput(*why);
-  if (!header.layout.pixels->encapsulated) return;
-  if (header.kind != PixelKind::Integer || header.bitsAllocated > 16)
-    throw BadInput("has compressed pixels of " + std::to_string(header.bitsAllocated) +
-                   " bits; 8 or 16 can be decoded");
-  checkCodeStreams();
-  registerCodecs();
-  decoder_ = std::make_unique<Decoder>();
-  DcmElement* element = nullptr;
-  if (decoder_->file.loadFile(header.file.c_str()).bad() ||
-      decoder_->file.getDataset()->findAndGetElement(DCM_PixelData, element).bad() || element == nullptr)
-    throw BadInput("has compressed pixels that cannot be parsed");
-  decoder_->pixels = dynamic_cast<DcmPixelData*>(element);
-  if (decoder_->pixels == nullptr) throw BadInput("has compressed pixels that cannot be parsed");
+PixelReader::PixelReader(const std::filesystem::path& file) {
+  header_ = readHeaderSafely(file, &elsewhere_);
+  if (const auto why = undecodable(header_.layout.transferSyntax)) throw BadInput(*why);
+  if (elsewhere_) return;
+  source_ = std::make_unique<ByteSource>(file);
+  here_ = std::make_unique<StoredFrames>(header_, *source_);
 }
 
 PixelReader::~PixelReader() = default;
 
-void PixelReader::checkCodeStreams() const {
-  const auto& fragments = header_.layout.pixels->fragments;
-  const std::size_t images = fragments.size() == header_.frames.size() ? fragments.size() : 1;
-  for (std::size_t n = 0; n < images; ++n) {
-    const Fragment& f = fragments[n];
-    const auto where = " (frame " + std::to_string(n + 1) + ")";
-    const std::vector<std::uint8_t> b = source_.bytes(f.offset, std::min<std::uint64_t>(f.length, 1U << 16));
-    const auto number16 = [&b](std::size_t at) { return (b[at] << 8) | b[at + 1]; };
-    if (isRle(header_.layout.transferSyntax)) {
-      const auto number32 = [&b](std::size_t at) {
-        return static_cast<std::uint64_t>(b[at]) | static_cast<std::uint64_t>(b[at + 1]) << 8 |
-               static_cast<std::uint64_t>(b[at + 2]) << 16 | static_cast<std::uint64_t>(b[at + 3]) << 24;
-      };
-      if (b.size() < 64) throw BadInput("has a run-length code stream without its header" + where);
-      const std::uint64_t segments = number32(0);
-      const auto expected = static_cast<std::uint64_t>(header_.samples * header_.bitsAllocated / 8);
-      if (segments != expected)
-        throw BadInput("has a run-length code stream of " + std::to_string(segments) + " segments where " +
-                       std::to_string(expected) + " were expected" + where);
-      std::uint64_t last = 64;
-      for (std::size_t s = 0; s < expected; ++s) {
-        const std::uint64_t begin = number32(4 + 4 * s);
-        if (begin < last || begin > f.length) throw BadInput("has run-length segments outside of their frame" + where);
-        last = begin;
-      }
-      continue;
-    }
-    if (b.size() < 4 || b[0] != 0xFF || b[1] != 0xD8)
-      throw BadInput("has compressed pixels that do not begin as a JPEG code stream" + where);
-    std::size_t at = 2;
-    bool found = false;
-    while (!found && at + 10 <= b.size() && b[at] == 0xFF) {
-      const int marker = b[at + 1];
-      const bool frameHeader =
-          (marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC) || marker == 0xF7;
-      if (frameHeader) {
-        const int height = number16(at + 5);
-        const int width = number16(at + 7);
-        const int components = b[at + 9];
-        if (height != header_.rows || width != header_.columns || components != header_.samples)
-          throw BadInput("has a code stream of " + sizeText(width, height, components) + ", but its header says " +
-                         sizeText(header_.columns, header_.rows, header_.samples) + where);
-        if (b[at + 4] > header_.bitsAllocated)
-          throw BadInput("has a code stream of " + std::to_string(b[at + 4]) + " bits, but its header says " +
-                         std::to_string(header_.bitsAllocated) + where);
-        found = true;
-      }
-      at += marker == 0xFF ? 1 : 2 + static_cast<std::size_t>(number16(at + 2));
-    }
-    if (!found) throw BadInput("has a code stream without an image size" + where);
-  }
+const std::vector<std::uint8_t>& PixelReader::picture(int number) {
+  if (held_ == number) return bytes_;
+  held_ = -1;
+  bytes_ = here_ ? here_->read(number) : elsewhere_->frame(number, header_.frameBytes());
+  held_ = number;
+  return bytes_;
 }
 
 void PixelReader::read(const Frame& frame, float* values) {
-  const std::uint64_t frameBytes = header_.frameBytes();
-  const PixelElement& pixels = *header_.layout.pixels;
-  if (!decoder_) {
-    bytes_ = source_.bytes(pixels.offset + static_cast<std::uint64_t>(frame.number) * frameBytes, frameBytes);
-    if (header_.layout.bigEndian) {
-      const auto width = header_.bitsAllocated == 8 ? (pixels.words ? 2 : 1) : header_.bitsAllocated / 8;
-      if (frameBytes % static_cast<std::uint64_t>(width) != 0)
-        throw BadInput("has an odd number of 8-bit pixels in big-endian words, whose order is not defined");
-      for (auto it = bytes_.begin(); it != bytes_.end(); it += width) std::reverse(it, it + width);
-    }
-  } else {
-    bytes_.assign(static_cast<std::size_t>(frameBytes + frameBytes % 2), 0);
-    OFString colourModel;
-    const OFCondition status = decoder_->pixels->getUncompressedFrame(
-        decoder_->file.getDataset(), static_cast<Uint32>(frame.number), decoder_->fragment, bytes_.data(),
-        static_cast<Uint32>(bytes_.size()), colourModel);
-    if (status.bad())
-      throw BadInput("has compressed pixels that cannot be decoded (frame " + std::to_string(frame.number + 1) + ": " +
-                     status.text() + ")");
-  }
-  const std::size_t count = static_cast<std::size_t>(header_.rows) * static_cast<std::size_t>(header_.columns);
-  const auto integers = [&](auto word) {
-    convertIntegers<decltype(word)>(bytes_.data(), count, header_.bitsStored, header_.isSigned, frame.rescale, values);
+  const std::uint8_t* bytes = picture(header_.isMosaic() ? 0 : frame.number).data();
+  const auto integers = [&](const std::uint8_t* from, std::size_t count, float* to) {
+    const auto convert = [&](auto word) {
+      convertIntegers<decltype(word)>(from, count, header_.bitsStored, header_.isSigned, frame.rescale, to);
+    };
+    if (header_.bitsAllocated == 8)
+      convert(std::uint8_t{});
+    else if (header_.bitsAllocated == 16)
+      convert(std::uint16_t{});
+    else
+      convert(std::uint32_t{});
   };
-  if (header_.kind == PixelKind::Float)
-    convertReals<float>(bytes_.data(), count, frame.rescale, values);
-  else if (header_.kind == PixelKind::Double)
-    convertReals<double>(bytes_.data(), count, frame.rescale, values);
-  else if (header_.bitsAllocated == 8)
-    integers(std::uint8_t{});
-  else if (header_.bitsAllocated == 16)
-    integers(std::uint16_t{});
-  else
-    integers(std::uint32_t{});
+  const auto run = [&](const std::uint8_t* from, std::size_t count, float* to) {
+    if (header_.kind == PixelKind::Float)
+      convertReals<float>(from, count, frame.rescale, to);
+    else if (header_.kind == PixelKind::Double)
+      convertReals<double>(from, count, frame.rescale, to);
+    else
+      integers(from, count, to);
+  };
+  const auto columns = static_cast<std::size_t>(header_.sliceColumns());
+  const auto rows = static_cast<std::size_t>(header_.sliceRows());
+  if (!header_.isMosaic()) return run(bytes, rows * columns, values);
+  const auto tile = static_cast<std::size_t>(frame.number);
+  const auto perRow = static_cast<std::size_t>(header_.tile.perRow);
+  const auto width = static_cast<std::size_t>(header_.columns);
+  const auto bytesPerPixel = static_cast<std::size_t>(header_.bitsAllocated / 8);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::size_t first = ((tile / perRow) * rows + row) * width + (tile % perRow) * columns;
+    run(bytes + first * bytesPerPixel, columns, values + row * columns);
+  }
 }
 
 }  // namespace glisson::dicom

@@ -2,42 +2,38 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "dicom/image_header.h"
+#include "dicom/reader_process.h"
+#include "dicom/stored_frames.h"
 
 namespace glisson::dicom {
 
-/// Why the pixels of a transfer syntax cannot be decoded, naming the codec; nothing where they can.
-std::optional<std::string> undecodable(const std::string& transferSyntax);
-
-/// Whether a transfer syntax loses information.
-bool isLossy(const std::string& transferSyntax);
-
-/// The pixels of one file. Native ones are read at their place in the file; compressed ones are decoded frame by frame,
-/// after the code stream has been seen to hold an image of the size that the header states.
+/// The measured values of one file, slice by slice. Pixels of a file that was parsed in a reader process are decoded
+/// there; the others are read at their place in the file.
 class PixelReader {
  public:
-  /// Throws BadInput where the transfer syntax cannot be decoded or the file cannot be parsed.
-  PixelReader(const ImageHeader& header, const ByteSource& source);
+  /// file: where header was read from. Throws BadInput where the transfer syntax cannot be decoded or the file cannot
+  /// be read.
+  explicit PixelReader(const std::filesystem::path& file);
   ~PixelReader();
-  PixelReader(const PixelReader&) = delete;
-  PixelReader& operator=(const PixelReader&) = delete;
 
-  /// Writes rows × columns values of a frame with one sample per pixel, rescaled in double, columns fastest.
-  /// Throws BadInput where the code stream is damaged or of another size.
+  const ImageHeader& header() const { return header_; }
+
+  /// Writes sliceRows × sliceColumns values of a frame with one sample per pixel, rescaled in double, columns fastest.
+  /// Throws BadInput or RefusedFile where the code stream is damaged or of another size.
   void read(const Frame& frame, float* values);
 
  private:
-  struct Decoder;
-  void checkCodeStreams() const;
+  const std::vector<std::uint8_t>& picture(int number);
 
-  const ImageHeader& header_;
-  const ByteSource& source_;
-  std::unique_ptr<Decoder> decoder_;
+  ImageHeader header_;
+  std::unique_ptr<ByteSource> source_;
+  std::unique_ptr<StoredFrames> here_;
+  std::unique_ptr<IsolatedFile> elsewhere_;
   std::vector<std::uint8_t> bytes_;
+  int held_ = -1;  ///< which picture bytes_ is
 };
 
 }  // namespace glisson::dicom

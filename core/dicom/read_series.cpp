@@ -12,15 +12,15 @@ void readFile(const Series& series, std::size_t index, image::ScalarVolume& volu
   const std::size_t sliceSize =
       static_cast<std::size_t>(volume.grid.size.x()) * static_cast<std::size_t>(volume.grid.size.y());
   try {
-    ByteSource source(file);
-    const ImageHeader header = readImageHeader(file, source);
+    PixelReader reader(file);
+    const ImageHeader& header = reader.header();
     const std::size_t base = series.uid.find('#');
-    if (header.rows != volume.grid.size.y() || header.columns != volume.grid.size.x() || header.colour() ||
-        header.seriesUid != series.uid.substr(0, base))
+    if (header.sliceRows() != volume.grid.size.y() || header.sliceColumns() != volume.grid.size.x() ||
+        header.colour() || header.seriesUid != series.uid.substr(0, base))
       throw BadInput("is no longer the image that was scanned; scan the folder again");
-    PixelReader reader(header, source);
     if (series.frames.empty()) {
-      if (header.frames.size() != 1) throw BadInput("is no longer the image that was scanned; scan the folder again");
+      if (header.frames.size() != 1 || header.isMosaic())
+        throw BadInput("is no longer the image that was scanned; scan the folder again");
       reader.read(header.frames.front(), volume.values.data() + index * sliceSize);
       return;
     }

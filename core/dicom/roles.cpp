@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <tuple>
 
 #include "base/error.h"
 
@@ -19,6 +20,8 @@ const char* firstOf(const std::string& text, std::initializer_list<const char*> 
     if (text.find(word) != std::string::npos) return word;
   return nullptr;
 }
+
+constexpr const char* byHand = "set by hand";
 
 void set(Series& s, SeriesRole role, const std::string& reason) {
   s.role = role;
@@ -47,11 +50,64 @@ void setGeRole(Series& s, const ImageHeader& h, const std::string& sequence, std
     const bool phase = std::any_of(kinds.begin(), kinds.end(),
                                    [](const auto& k) { return k.first == "private image type" && k.second != "0"; });
     if (phase && phases == 1) {
-      set(s, SeriesRole::Other, where + " (raw phase images)");
+      set(s, SeriesRole::Phase, where + " (raw phase images)");
     } else {
       set(s, SeriesRole::Magnitude, where + " (the acquisition itself: magnitude)");
     }
   }
+}
+
+/// What the words of a name mean on scanners that name the products of an elastography acquisition.
+struct ProductName {
+  const char* word;
+  SeriesRole role;
+  const char* meaning;
+};
+
+/// Siemens ("MR Elastography": products by the end of the series description or a part of the image type) and Philips
+/// ("MRE": products by image type). Both write maps of the same words; nothing is taken from private scale factors.
+/// True where one applies.
+bool setVendorRole(Series& s, const ImageHeader& h) {
+  const std::string maker = lower(h.manufacturer);
+  const char* vendor = maker.find("siemens") != std::string::npos   ? "Siemens"
+                       : maker.find("philips") != std::string::npos ? "Philips"
+                                                                    : nullptr;
+  if (vendor == nullptr) return false;
+  const std::string description = lower(s.description);
+  const std::string type = lower(h.imageType);
+  const std::string sequence = lower(h.sequenceName);
+  if (firstOf(description + "\\" + type + "\\" + sequence, {"mre", "elasto", "stiff"}) == nullptr && h.step.time < 0)
+    return false;
+  static constexpr ProductName products[] = {
+      {"confmap", SeriesRole::Confidence, "confidence map"},    {"conf_map", SeriesRole::Confidence, "confidence map"},
+      {"confidence", SeriesRole::Confidence, "confidence map"}, {"stiffness", SeriesRole::Stiffness, "stiffness map"},
+      {"stiff", SeriesRole::Stiffness, "stiffness map"},        {"elastogram", SeriesRole::Stiffness, "stiffness map"},
+      {"shear", SeriesRole::Stiffness, "stiffness map"},        {"wave", SeriesRole::Wave, "wave images"},
+      {"displacement", SeriesRole::Wave, "wave images"}};
+  for (const ProductName& p : products) {
+    const bool inType = type.find(p.word) != std::string::npos;
+    if (!inType && description.find(p.word) == std::string::npos) continue;
+    set(s, p.role,
+        std::string(vendor) + " elastography, " + (inType ? "image type" : "series description") + " holds '" + p.word +
+            "': " + p.meaning);
+    // The unit is taken where the file states it, in its rescale type or in words; else it is asked for.
+    if (p.role == SeriesRole::Stiffness && !s.unit) {
+      if (description.find("kpa") != std::string::npos)
+        s.unit = "kPa";
+      else if (description.find("(pa)") != std::string::npos || description.find("[pa]") != std::string::npos)
+        s.unit = "Pa";
+    }
+    return true;
+  }
+  const bool phase =
+      type.find("\\p\\") != std::string::npos || type.ends_with("\\p") || type.find("phase") != std::string::npos;
+  const bool magnitude =
+      type.find("\\m\\") != std::string::npos || type.ends_with("\\m") || type.find("magnitude") != std::string::npos;
+  if (!phase && !magnitude) return false;
+  set(s, phase ? SeriesRole::Phase : SeriesRole::Magnitude,
+      std::string(vendor) + " elastography, image type '" + h.imageType.substr(0, 40) +
+          "': " + (phase ? "raw phase images" : "magnitude"));
+  return true;
 }
 
 void setByDescription(Series& s, const ImageHeader& h) {
@@ -70,7 +126,7 @@ void setByDescription(Series& s, const ImageHeader& h) {
   } else if (const char* wave = firstOf(all, {"wave"})) {
     set(s, SeriesRole::Wave, because(wave));
   } else if (derivedMre && (type.find("\\p\\") != std::string::npos || firstOf(description, {"phase"}) != nullptr)) {
-    set(s, SeriesRole::Other, "raw phase images of an elastography series");
+    set(s, SeriesRole::Phase, "raw phase images of an elastography series");
   } else if (const char* mre = firstOf(all, {"mre", "elasto", "magnitude"})) {
     set(s, SeriesRole::Magnitude, because(mre));
   } else if (const char* part =
@@ -103,10 +159,36 @@ std::string name(SeriesRole role) {
       return "confidence";
     case SeriesRole::ColourCopy:
       return "colour-copy";
+    case SeriesRole::Phase:
+      return "phase";
     case SeriesRole::Other:
       break;
   }
   return "other";
+}
+
+SeriesRole roleNamed(const std::string& text) {
+  std::string all;
+  for (const SeriesRole role : {SeriesRole::Anatomical, SeriesRole::Magnitude, SeriesRole::Wave, SeriesRole::Stiffness,
+                                SeriesRole::Confidence, SeriesRole::ColourCopy, SeriesRole::Phase, SeriesRole::Other}) {
+    if (text == name(role)) return role;
+    all += (all.empty() ? "" : ", ") + name(role);
+  }
+  throw BadInput("'" + text.substr(0, 40) + "' is no role of a series; there are " + all);
+}
+
+std::vector<std::string> applyRoles(ScanResult& scan, const RoleOverrides& overrides) {
+  std::vector<std::string> notFound;
+  for (const auto& [which, role] : overrides) {
+    bool found = false;
+    for (Series& s : scan.series) {
+      if (s.uid != which && s.uid.substr(0, s.uid.find('#')) != which && std::to_string(s.number) != which) continue;
+      found = true;
+      set(s, role, byHand);
+    }
+    if (!found) notFound.push_back(which);
+  }
+  return notFound;
 }
 
 void setRoles(std::vector<Series>& volumes, const ImageHeader& header) {
@@ -120,7 +202,7 @@ void setRoles(std::vector<Series>& volumes, const ImageHeader& header) {
         s.error = "its pixels are colours: a coloured elastogram is not a stiffness map; load the grey-value series";
     } else if (geMre) {
       setGeRole(s, header, sequence.find("epimre") != std::string::npos ? "epimre" : "fgremre", volumes.size());
-    } else {
+    } else if (!setVendorRole(s, header)) {
       setByDescription(s, header);
     }
   }
@@ -132,10 +214,12 @@ const Series& findRole(const ScanResult& scan, SeriesRole role) {
   for (const Series& s : scan.series) {
     there += (there.empty() ? "" : ", ") + name(s.role) + " (series " + std::to_string(s.number) + ")";
     if (s.role != role) continue;
-    // Readable before unreadable, then more slices; equal ones stay in order of series number and uid.
-    if (best == nullptr || (best->error && !s.error) ||
-        (best->error.has_value() == s.error.has_value() && s.grid.size.z() > best->grid.size.z()))
-      best = &s;
+    // Set by hand before guessed, readable before unreadable, then more slices; equal ones stay in order of series
+    // number and uid.
+    const auto rank = [](const Series& x) {
+      return std::make_tuple(x.roleReason == byHand, !x.error.has_value(), x.grid.size.z());
+    };
+    if (best == nullptr || rank(s) > rank(*best)) best = &s;
   }
   if (best == nullptr)
     throw BadInput("there is no " + name(role) + " series; " +

@@ -3,7 +3,10 @@
 #include <set>
 
 #include "base/error.h"
+#include "dicom/archive.h"
+#include "dicom/directory.h"
 #include "dicom/image_header.h"
+#include "dicom/reader_process.h"
 #include "dicom/roles.h"
 #include "dicom/series.h"
 #include "dicom/volumes.h"
@@ -108,34 +111,24 @@ void dropCopies(std::vector<ImageHeader>& headers, std::vector<SkippedFile>& ski
 
 }  // namespace
 
-ScanResult scan(const fs::path& path, const Progress& progress) {
-  ScanResult result;
-  std::error_code failed;
-  const fs::file_status status = fs::status(path, failed);
-  if (!fs::exists(status)) throw BadInput("'" + path.filename().string() + "' does not exist");
-  FolderWalk walk(result.skipped, progress);
-  if (fs::is_directory(status)) {
-    walk.walk(path);
-  } else if (path.filename() == "DICOMDIR") {
-    walk.walk(path.has_parent_path() ? path.parent_path() : fs::path("."));
-  } else {
-    walk.files.push_back(path);
-  }
+namespace {
 
+ScanResult scanFiles(const std::vector<fs::path>& files, ScanResult result, const Progress& progress) {
   std::map<std::string, std::vector<ImageHeader>> bySeries;
   std::map<std::string, std::vector<fs::path>> refused;
-  for (std::size_t n = 0; n < walk.files.size(); ++n) {
-    const fs::path& file = walk.files[n];
+  for (std::size_t n = 0; n < files.size(); ++n) {
+    const fs::path& file = files[n];
     if (n % 16 == 0)
-      progress.report(static_cast<double>(n) / static_cast<double>(walk.files.size()), "reading image headers");
+      progress.report(static_cast<double>(n) / static_cast<double>(files.size()), "reading image headers");
     try {
       if (lower(file.filename().string()) == "dicomdir")
         throw BadInput("is a DICOMDIR index; the files are read directly");
-      ByteSource source(file);
-      ImageHeader header = readImageHeader(file, source);
+      ImageHeader header = readHeaderSafely(file);
       bySeries[header.seriesUid].push_back(std::move(header));
     } catch (const RefusedFile& e) {
-      result.skipped.push_back({file, e.reason});
+      result.skipped.push_back({file, e.reason == "is not a DICOM file" && looksLikeZip(file)
+                                          ? "is a ZIP archive; open it by itself"
+                                          : e.reason});
       if (!e.seriesUid.empty()) refused[e.seriesUid].push_back(file);
     } catch (const BadInput& e) {
       result.skipped.push_back({file, e.what()});
@@ -163,6 +156,51 @@ ScanResult scan(const fs::path& path, const Progress& progress) {
                    [](const SkippedFile& a, const SkippedFile& b) { return a.file < b.file; });
   progress.report(1.0, "reading image headers");
   return result;
+}
+
+/// Unpacks and scans; files of the private folder are named as entries of the archive.
+ScanResult scanArchive(const fs::path& path, const Progress& progress) {
+  ScanResult result;
+  std::shared_ptr<const PrivateFolder> folder;
+  try {
+    folder = unpackArchive(path, result.skipped);
+  } catch (const RefusedFile& e) {
+    return {{}, {{path, e.reason}}};
+  } catch (const BadInput& e) {
+    return {{}, {{path, e.what()}}};
+  }
+  FolderWalk walk(result.skipped, progress);
+  walk.walk(folder->path());
+  result = scanFiles(walk.files, std::move(result), progress);
+  for (Series& s : result.series) s.folder = folder;
+  for (SkippedFile& s : result.skipped) {
+    const fs::path inside = s.file.lexically_relative(folder->path());
+    if (!inside.empty() && *inside.begin() != "..") s.file = path / inside;
+  }
+  return result;
+}
+
+}  // namespace
+
+ScanResult scan(const fs::path& path, const Progress& progress) {
+  ScanResult result;
+  std::error_code failed;
+  const fs::file_status status = fs::status(path, failed);
+  if (!fs::exists(status)) throw BadInput("'" + path.filename().string() + "' does not exist");
+  if (fs::is_directory(status)) {
+    FolderWalk walk(result.skipped, progress);
+    walk.walk(path);
+    return scanFiles(walk.files, std::move(result), progress);
+  }
+  if (fs::is_regular_file(status) && looksLikeZip(path)) return scanArchive(path, progress);
+  if (lower(path.filename().string()) != "dicomdir") return scanFiles({path}, std::move(result), progress);
+  std::vector<fs::path> files;
+  try {
+    files = listedFiles(path, result.skipped);
+  } catch (const RefusedFile& e) {
+    result.skipped.push_back({path, e.reason});
+  }
+  return scanFiles(files, std::move(result), progress);
 }
 
 }  // namespace glisson::dicom

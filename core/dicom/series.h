@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,11 +13,14 @@
 namespace glisson::dicom {
 
 /// What a series is for. Guessed, always with a reason; the user can correct it.
-enum class SeriesRole { Anatomical, Magnitude, Wave, Stiffness, Confidence, ColourCopy, Other };
+enum class SeriesRole { Anatomical, Magnitude, Wave, Stiffness, Confidence, ColourCopy, Other, Phase };
 
 /// Lower-case name as used in JSON: "anatomical", "magnitude", "wave", "stiffness", "confidence", "colour-copy",
-/// "other".
+/// "other", "phase" (raw phase images of an elastography acquisition).
 std::string name(SeriesRole role);
+
+/// The role of that name. Throws BadInput with the names that there are.
+SeriesRole roleNamed(const std::string& name);
 
 /// A file that takes no part, and why. Data, not an exception.
 struct SkippedFile {
@@ -36,13 +41,20 @@ struct Series {
   std::string roleReason;                    ///< a sentence
   std::vector<std::filesystem::path> files;  ///< in slice order; one entry for a multi-frame file
   std::vector<std::string> sopInstanceUids;  ///< in slice order (one for multi-frame)
-  std::vector<int> frames;                   ///< of a multi-frame file: its frame (from 0) for every slice; else empty
+  std::vector<int> frames;  ///< of a multi-frame file or mosaic: its frame (from 0) for every slice; else empty
   std::string sopClassUid;
-  image::Grid grid;                 ///< LPS mm, from ImagePositionPatient along the normal
-  bool colour = false;              ///< samples per pixel > 1 or palette
-  std::optional<std::string> unit;  ///< "Pa", "kPa", ... where the role and the vendor say so
+  image::Grid grid;                    ///< LPS mm, from ImagePositionPatient along the normal
+  std::string studyDate;               ///< as in the file, to compare, never to show
+  bool colour = false;                 ///< samples per pixel > 1 or palette
+  bool lossy = false;                  ///< compressed with loss: values are not the measured ones
+  bool burnedIn = false;               ///< its pixels may hold text about the patient
+  int temporalIndex = -1;              ///< time step, from 0, where volumes of one series follow each other; else -1
+  int encodingDirection = -1;          ///< of motion (raw elastography), from 0; -1 where not known
+  std::optional<double> vibration_Hz;  ///< of a raw elastography acquisition, where the file says so
+  std::optional<std::string> unit;     ///< "Pa", "kPa", ... where the role and the vendor say so
   std::vector<std::string> warnings;
-  std::optional<std::string> error;  ///< why it cannot be read as a volume; readSeries throws BadInput with it
+  std::optional<std::string> error;    ///< why it cannot be read as a volume; readSeries throws BadInput with it
+  std::shared_ptr<const void> folder;  ///< keeps the private folder of an unpacked archive while files are needed
 };
 
 struct ScanResult {
@@ -50,9 +62,11 @@ struct ScanResult {
   std::vector<SkippedFile> skipped;  ///< ordered by path
 };
 
-/// Reads every file below a folder (or one file, or a DICOMDIR's folder), whatever its extension; groups into series,
-/// guesses roles, checks geometry. Never throws for a bad file: it is listed in skipped, with the reason. Special files
-/// (FIFO, device, socket), links that leave the folder or loop, are skipped unopened.
+/// Reads every file below a folder, whatever its extension; or one file; or what a DICOMDIR lists (and no more; what is
+/// missing is in skipped); or a ZIP archive, unpacked into a private folder (mode 0700) that lives as long as a series
+/// of it. Groups into series, guesses roles, checks geometry. Never throws for a bad file: it is listed in skipped,
+/// with the reason. Special files (FIFO, device, socket), links that leave the folder or loop, are skipped unopened.
+/// Plain files are parsed here, all others in a process of their own with limits (readerProgram).
 /// Throws BadInput where the path does not exist.
 ScanResult scan(const std::filesystem::path& path, const Progress& progress = {});
 
@@ -64,5 +78,18 @@ image::ScalarVolume readSeries(const Series& series, const Progress& progress = 
 /// The only series with this role, or the best of several by a stated rule. Throws BadInput where there is none, naming
 /// the roles that are there.
 const Series& findRole(const ScanResult& scan, SeriesRole role);
+
+/// Roles set by hand: a series by its uid (of all its volumes where no "#n" is given) or its number.
+using RoleOverrides = std::map<std::string, SeriesRole>;
+
+/// Gives the series named in overrides their role, with the reason "set by hand"; findRole prefers them to guessed
+/// ones. Returns the names that no series has.
+std::vector<std::string> applyRoles(ScanResult& scan, const RoleOverrides& overrides);
+
+/// The program that parses and decodes what is not plain, in a process of its own: set by setReaderProgram, else
+/// glisson-reader beside the running program, in ../libexec/glisson or in ../glisson-reader. Empty where there is none:
+/// then such files are skipped, with a reason that says so, and plain ones are read as ever.
+std::filesystem::path readerProgram();
+void setReaderProgram(const std::filesystem::path& program);
 
 }  // namespace glisson::dicom

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 #include "base/error.h"
-#include "dicom/pixels.h"
+#include "dicom/stored_frames.h"
 
 namespace glisson::dicom {
 namespace {
@@ -54,8 +55,11 @@ std::optional<std::string> mixture(const Planes& planes) {
       }))
     return e;
   if (auto e = mixed(planes, "size (rows, columns)", [](const Plane& a, const Plane& b) {
-        return a.header->rows == b.header->rows && a.header->columns == b.header->columns;
+        return a.header->sliceRows() == b.header->sliceRows() && a.header->sliceColumns() == b.header->sliceColumns();
       }))
+    return e;
+  if (auto e = mixed(planes, "kind (mosaics and single slices)",
+                     [](const Plane& a, const Plane& b) { return a.header->isMosaic() == b.header->isMosaic(); }))
     return e;
   if (auto e = mixed(planes, "pixel spacing", [&](const Plane& a, const Plane& b) {
         return close(a.frame->rowSpacing_mm, b.frame->rowSpacing_mm) &&
@@ -103,7 +107,46 @@ struct NaturalOrder {
 struct Part {
   Planes planes;
   std::string told;  ///< what tells it from its siblings, e.g. "echo time 4.6"
+  int time = -1;     ///< its rank, where a time or an order of acquisition tells it from its siblings
 };
+
+/// Whether every file is a volume of its own: mosaics; multi-frame files that cover the same places.
+bool eachFileIsAVolume(const Planes& planes) {
+  std::map<const ImageHeader*, std::vector<double>> places;
+  for (const Plane& p : planes) {
+    if (!p.header->isMosaic() && p.header->frames.size() < 2) return false;
+    places[p.header].push_back(p.along_mm);
+  }
+  if (places.size() < 2) return false;
+  for (auto& [header, list] : places) std::sort(list.begin(), list.end());
+  const std::vector<double>& first = places.begin()->second;
+  return std::all_of(places.begin(), places.end(), [&](const auto& file) {
+    return std::equal(first.begin(), first.end(), file.second.begin(), file.second.end(),
+                      [](double a, double b) { return std::abs(a - b) < samePlace_mm; });
+  });
+}
+
+/// One part per file: in order of the steps of an elastography acquisition where the files name them, else of instance
+/// numbers.
+std::vector<Part> partsPerFile(const Planes& planes) {
+  const auto order = [](const ImageHeader* h) {
+    return std::make_tuple(h->step.frequency, h->step.direction, h->step.time, h->instanceNumber, h->file);
+  };
+  const auto before = [&order](const ImageHeader* a, const ImageHeader* b) { return order(a) < order(b); };
+  std::map<const ImageHeader*, Planes, decltype(before)> byFile(before);
+  for (const Plane& p : planes) byFile[p.header].push_back(p);
+  std::vector<Part> parts;
+  for (auto& [h, own] : byFile) {
+    Part part{std::move(own), "instance number " + std::to_string(h->instanceNumber), h->step.time};
+    if (h->step.time >= 0)
+      part.told = (h->step.direction >= 0 ? "encoding direction " + std::to_string(h->step.direction + 1) + ", " : "") +
+                  std::string("time step ") + std::to_string(h->step.time + 1);
+    else
+      part.time = static_cast<int>(parts.size());
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
 
 /// Parts planes that share positions by the first attribute that explains it; again within each part.
 void split(Part part, std::vector<Part>& out) {
@@ -133,8 +176,14 @@ void split(Part part, std::vector<Part>& out) {
       if ((name == "trigger time" || name == "acquisition number") && here < 2) sound = false;
     }
     if (!sound) continue;
-    for (auto& [value, planes] : byValue)
-      split({std::move(planes), part.told + (part.told.empty() ? "" : ", ") + name + " " + value.substr(0, 40)}, out);
+    const bool inTime = name == "temporal position" || name == "trigger time" || name == "acquisition number";
+    int rank = 0;
+    for (auto& [value, planes] : byValue) {
+      split({std::move(planes), part.told + (part.told.empty() ? "" : ", ") + name + " " + value.substr(0, 40),
+             inTime ? rank : part.time},
+            out);
+      ++rank;
+    }
     return;
   }
   out.push_back(std::move(part));
@@ -235,7 +284,8 @@ Series describe(const ImageHeader& h) {
   s.number = h.seriesNumber;
   s.sopClassUid = h.sopClassUid;
   s.colour = h.colour();
-  s.grid.size = {h.columns, h.rows, 1};
+  s.studyDate = h.studyDate;
+  s.grid.size = {h.sliceColumns(), h.sliceRows(), 1};
   if (!h.unit.empty()) s.unit = h.unit;
   if (h.frameOfReferenceUid.empty())
     s.warnings.push_back("has no frame of reference: how it lies to others is unknown");
@@ -243,7 +293,7 @@ Series describe(const ImageHeader& h) {
 }
 
 void addFiles(const Planes& planes, Series& series) {
-  const bool multi = planes.front().header->frames.size() > 1;
+  const bool multi = planes.front().header->frames.size() > 1 || planes.front().header->isMosaic();
   for (const Plane& p : planes) {
     if (multi) series.frames.push_back(p.frame->number);
     if (multi && !series.files.empty() && series.files.back() == p.header->file) continue;
@@ -252,8 +302,11 @@ void addFiles(const Planes& planes, Series& series) {
   }
   std::map<std::string, Planes> warned;
   for (const Plane& p : planes)
-    if (&p.header->frames.front() == p.frame || planes.size() == 1)
+    if (&p.header->frames.front() == p.frame || planes.size() == 1) {
+      series.lossy = series.lossy || p.header->lossy;
+      series.burnedIn = series.burnedIn || p.header->burnedIn;
       for (const std::string& w : p.header->warnings) warned[w].push_back(p);
+    }
   for (const auto& [text, where] : warned)
     series.warnings.push_back((where.size() == planes.size() ? std::string("every file") : namesOf(where)) + " " +
                               text);
@@ -275,13 +328,6 @@ Series volumeOf(Planes planes, const Eigen::Vector3d& normal) {
   for (const Plane& p : planes)
     if (const auto why = undecodable(p.header->layout.transferSyntax)) s.error = nameOf(p) + ": " + *why;
   if (s.error) return s;
-  for (const Plane& p : planes)
-    if (p.header->mosaic) {
-      s.error =
-          "its images are Siemens mosaics (all slices of a volume tiled into one picture); export it as single "
-          "slices or as enhanced multi-frame";
-      return s;
-    }
   for (const Plane& p : planes)
     if (planes.front().header->frames.size() > 1 && p.header != planes.front().header) {
       s.error =
@@ -314,14 +360,18 @@ std::vector<Series> buildVolumes(const std::vector<ImageHeader>& headers) {
   const Eigen::Vector3d normal = planes.front().frame->row.cross(planes.front().frame->column).normalized();
   for (Plane& p : planes) p.along_mm = p.frame->position_lps_mm.dot(normal);
   std::vector<Part> parts;
-  // Mosaics are refused as a whole: their positions are those of the tiled picture.
-  if (headers.front().mosaic)
-    parts.push_back({planes, {}});
+  if (eachFileIsAVolume(planes))
+    parts = partsPerFile(planes);
   else
     split({planes, {}}, parts);
   std::vector<Series> out;
   for (std::size_t n = 0; n < parts.size(); ++n) {
     Series s = volumeOf(parts[n].planes, normal);
+    s.temporalIndex = parts[n].time;
+    const ElastographyStep& step = parts[n].planes.front().header->step;
+    s.encodingDirection = step.direction;
+    if (step.time >= 0) s.temporalIndex = step.time;
+    if (step.vibration_Hz > 0.0) s.vibration_Hz = step.vibration_Hz;
     if (parts.size() > 1) {
       if (n > 0) s.uid += "#" + std::to_string(n + 1);
       s.warnings.push_back("volume " + std::to_string(n + 1) + " of " + std::to_string(parts.size()) +

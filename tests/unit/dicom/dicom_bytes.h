@@ -42,9 +42,11 @@ class DicomBytes {
   std::string orientation = "1\\0\\0\\0\\1\\0";
   std::string spacing = "2\\3";
   std::string photometric = "MONOCHROME2";
-  std::string extra0008;  ///< elements of group 0008 after the modality
-  std::string extra0018;  ///< elements of group 0018
-  std::string extra0020;  ///< elements of group 0020 after the orientation
+  std::string first0008;    ///< elements of group 0008 before the SOP class
+  std::string extra0008;    ///< elements of group 0008 after the modality
+  std::string extra0018;    ///< elements of group 0018
+  std::string extraNumber;  ///< element (0020,0013)
+  std::string extra0020;    ///< elements of group 0020 after the orientation
   std::string extraBeforePixels;
   std::string rescale;  ///< elements (0028,1052) and on
   unsigned rows = 3, columns = 4, samples = 1, allocated = 16, stored = 16, highBit = 15, representation = 0;
@@ -55,10 +57,11 @@ class DicomBytes {
   std::uint32_t pixelTag = 0x7FE00010;
 
   std::string dataset() const {
-    std::string d = element(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.4") + element(0x00080018, "UI", sopUid) +
-                    element(0x00080060, "CS", "MR") + extra0008 + element(0x00100010, "PN", "PHI^CANARY") +
-                    element(0x00100020, "LO", "PHI^CANARY") + extra0018 + element(0x0020000D, "UI", "1.2.3") +
-                    element(0x0020000E, "UI", seriesUid) + element(0x00200011, "IS", "5");
+    std::string d = first0008 + element(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.4") +
+                    element(0x00080018, "UI", sopUid) + element(0x00080060, "CS", "MR") + extra0008 +
+                    element(0x00100010, "PN", "PHI^CANARY") + element(0x00100020, "LO", "PHI^CANARY") + extra0018 +
+                    element(0x0020000D, "UI", "1.2.3") + element(0x0020000E, "UI", seriesUid) +
+                    element(0x00200011, "IS", "5") + extraNumber;
     if (!position.empty()) d += element(0x00200032, "DS", position);
     d += element(0x00200037, "DS", orientation) + element(0x00200052, "UI", "1.2.3.9") + extra0020 +
          us(0x00280002, samples) + element(0x00280004, "CS", photometric);

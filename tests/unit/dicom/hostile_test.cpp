@@ -6,10 +6,7 @@
 #include <cstring>
 #include <functional>
 
-#include "base/error.h"
-#include "dicom/series.h"
-#include "dicom_bytes.h"
-#include "support/support.h"
+#include "said.h"
 
 namespace glisson::dicom {
 namespace {
@@ -17,35 +14,6 @@ namespace {
 using test::DicomBytes;
 using test::TemporaryFolder;
 using testing::HasSubstr;
-
-/// Every sentence that scanning and reading the files of a folder gives.
-std::string saidOf(const std::filesystem::path& path) {
-  const ScanResult found = scan(path);
-  std::string said;
-  for (const SkippedFile& s : found.skipped) said += s.reason + "\n";
-  for (const Series& s : found.series) {
-    for (const std::string& w : s.warnings) said += w + "\n";
-    try {
-      readSeries(s);
-      said += "[read]\n";
-    } catch (const BadInput& e) {
-      said += std::string(e.what()) + "\n";
-    }
-  }
-  EXPECT_THAT(said, Not(HasSubstr("CANARY")));
-  return said;
-}
-
-std::string saidOfBytes(const std::string& bytes) {
-  const TemporaryFolder folder;
-  return saidOf(DicomBytes::write(folder / "one", bytes));
-}
-
-std::string saidOfImage(const std::function<void(DicomBytes&)>& change) {
-  DicomBytes image;
-  change(image);
-  return saidOfBytes(image.bytes());
-}
 
 TEST(Hostile, theUnchangedImageIsRead) {
   EXPECT_THAT(saidOfImage([](DicomBytes&) {}), HasSubstr("[read]"));

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dicom/image_header.h"
+
+namespace glisson::dicom {
+
+/// What a reader process may spend on one file. Memory: beyond what the program takes by itself.
+struct ReaderLimits {
+  std::uint64_t memory_bytes = 0;  ///< 256 MiB and three times the file
+  double cpu_s = 0.0;              ///< 1.5 s, and 1 s for every 32 MiB of decoded pixels or 4 MiB of an archive
+};
+ReaderLimits limitsFor(std::uint64_t fileBytes, std::uint64_t decodedBytes);
+
+/// A file that is parsed and decoded in a process of its own: glisson-reader, started when it is first needed and used
+/// again for the next file. A crash, a hang or memory beyond the limits ends that process and becomes a reason.
+/// Every call throws RefusedFile, with that reason; and where the program is not there (series.h: readerProgram).
+class IsolatedFile {
+ public:
+  explicit IsolatedFile(const std::filesystem::path& file);
+  ~IsolatedFile();
+  IsolatedFile(const IsolatedFile&) = delete;
+  IsolatedFile& operator=(const IsolatedFile&) = delete;
+
+  /// Header of an image, checked again on this side.
+  ImageHeader header();
+  /// Stored pixels of one frame, little endian; frameBytes of them. header() must have been asked for before.
+  std::vector<std::uint8_t> frame(int number, std::uint64_t frameBytes);
+  /// Paths that a DICOMDIR lists, as parts from its folder on.
+  std::vector<std::vector<std::string>> directory();
+
+  /// One entry of an archive: its bytes come in pieces.
+  struct EntrySink {
+    /// Whether the bytes of this entry are wanted.
+    std::function<bool(const std::string& name)> begin;
+    std::function<void(const char* bytes, std::size_t count)> data;
+    std::function<void(const std::string& name, const std::string& reason)> refused;
+  };
+  void unpack(const EntrySink& sink);
+
+ private:
+  class Process;
+  class Pool;
+  std::string ask(std::uint32_t request, const std::string& payload, std::uint64_t decodedBytes,
+                  std::uint64_t largestAnswer);
+  void start();
+
+  std::filesystem::path file_;
+  std::uint64_t fileBytes_ = 0;
+  std::unique_ptr<Process> process_;
+  bool opened_ = false;
+};
+
+/// Whether the header of a plain file can be parsed here, and what it says; others go through a reader process.
+/// Throws RefusedFile.
+/// keep: where the process that parsed the file is put, to decode its pixels; stays empty where it was parsed here.
+ImageHeader readHeaderSafely(const std::filesystem::path& file, std::unique_ptr<IsolatedFile>* keep = nullptr);
+
+}  // namespace glisson::dicom
