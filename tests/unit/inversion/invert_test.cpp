@@ -95,7 +95,7 @@ TEST(Invert, ConfidenceFallsWithNoiseAndNoiseAloneIsNotTrusted) {
   std::size_t trusted = 0;
   for (const float c : r.confidence.values) trusted += c >= 0.95F ? 1 : 0;
   EXPECT_LT(static_cast<double>(trusted), 0.02 * static_cast<double>(g.voxelCount()));
-  EXPECT_THROW(firstHarmonic({phases(g, nothing, 4, 5.0, random)}), BadInput);
+  EXPECT_THROW(invert(firstHarmonic({phases(g, nothing, 4, 5.0, random)}), at(60)), BadInput);
 }
 
 TEST(Invert, ObliqueWaveNeedsThreeDimensions) {
