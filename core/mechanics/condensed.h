@@ -57,17 +57,21 @@ class CondensedModel {
 struct CondensedDynamicOptions {
   double h_s = 1e-3;
   int vectors = 8;  ///< per input
+  /// Steps of full implicit Euler after a sudden unit load of each input, whose best basis is taken; 0 = Krylov
+  /// vectors, which cost no more than `vectors` solves. Any motion under changing amounts is a sum of such step
+  /// responses, so the steps should reach until the motion has died down. Takes 8 bytes for each step and degree of
+  /// freedom meanwhile.
+  int training = 0;
   double rayleighAlpha_1_s = 0.0;
   double rayleighBeta_s = 0.0;
   double tolerance = 1e-10;  ///< of the solves that make the basis
 };
 
-/// Dynamics of the voxel FEM in a small subspace: for each input K⁻¹ f, (K⁻¹M) K⁻¹ f, (K⁻¹M)² K⁻¹ f ... and, for the
-/// first instants, (M + hC + h²K)⁻¹ f; M-orthonormalised. The state of rest is exact; what the tool excites at
-/// frequencies above those that the vectors reach is lost. On a 60 mm block pushed in 0.1 s with Rayleigh β 2 ms, 8
-/// vectors stay within 0.0003 mm of full implicit Euler, after a sudden load within 0.004 mm (16: 0.0001 mm); a sudden
-/// load without any damping rings at all frequencies and needs more. One step is a product with a dense matrix of
-/// size() rows.
+/// Dynamics of the voxel FEM in a small subspace, M-orthonormal. For each input K⁻¹ f (so rest is exact) and
+///   Krylov     (K⁻¹M) K⁻¹ f, (K⁻¹M)² K⁻¹ f ... and, for the first instants, (M + hC + h²K)⁻¹ f;
+///   trained    the principal vectors, in the mass norm, of what is left of its step response.
+/// What the tool excites beyond the vectors is lost; the README of this room has what that costs. One step is a product
+/// with a dense matrix of size() rows.
 class CondensedDynamics {
  public:
   /// h is fixed here. Throws as CondensedModel does; BadInput for h_s ≤ 0 or vectors < 2.

@@ -34,6 +34,44 @@ bool extend(const DynamicSystem& system, std::vector<Eigen::VectorXd>& basis, Ei
   return true;
 }
 
+/// Adds the principal vectors, vectors − 1 at most, of the step response to f beyond the basis.
+void train(VoxelSystem& system, const Eigen::VectorXd& f, const CondensedDynamicOptions& options, std::size_t input,
+           std::vector<Eigen::VectorXd>& basis) {
+  DynamicOptions dynamic;
+  dynamic.h_s = options.h_s;
+  dynamic.end_s = options.training * options.h_s;
+  dynamic.rayleighAlpha_1_s = options.rayleighAlpha_1_s;
+  dynamic.rayleighBeta_s = options.rayleighBeta_s;
+  Eigen::MatrixXd S(f.size(), options.training);
+  Eigen::VectorXd Mx(f.size());
+  dynamic.onStep = [&](const DynamicState& state) {
+    Eigen::VectorXd x = state.q;
+    system.applyM(x, Mx);
+    for (const Eigen::VectorXd& b : basis) x -= b.dot(Mx) * b;
+    S.col(state.step - 1) = x;
+    return true;
+  };
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(f.size());
+  const SolveReport worst = integrate(system, f, zero, zero, dynamic).worst;
+  if (!worst.converged())
+    throw SolverFailed("condensed dynamics: the step response to tool input " + std::to_string(input) + " ended with " +
+                           describe(worst.status),
+                       worst.iterations, worst.residual, worst.tolerance);
+  Eigen::MatrixXd G(S.cols(), S.cols());
+  for (Eigen::Index c = 0; c < S.cols(); ++c) {
+    system.applyM(S.col(c), Mx);
+    G.col(c) = S.transpose() * Mx;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (G + G.transpose()));
+  const Eigen::VectorXd& size = eigen.eigenvalues();
+  for (Eigen::Index k = 1; k < options.vectors && k <= S.cols(); ++k) {
+    const Eigen::Index at = S.cols() - k;
+    // Below this, the snapshots' own rounding.
+    if (!(size[at] > 1e-15 * size[S.cols() - 1])) break;
+    extend(system, basis, S * eigen.eigenvectors().col(at));
+  }
+}
+
 }  // namespace
 
 CondensedDynamics::CondensedDynamics(StaticSolver& solver, const std::vector<NodalField>& inputs,
@@ -45,6 +83,7 @@ CondensedDynamics::CondensedDynamics(StaticSolver& solver, const std::vector<Nod
     throw BadInput("condensed dynamics: the time step must be positive, not " + std::to_string(h));
   if (options.vectors < 2)
     throw BadInput("condensed dynamics: " + std::to_string(options.vectors) + " vectors per input; use 2 or more");
+  if (options.training < 0) throw BadInput("condensed dynamics: a negative number of training steps");
   if (!(alpha >= 0.0 && beta >= 0.0)) throw BadInput("condensed dynamics: Rayleigh damping must not be negative");
   if (!solver.voxels().prescribed_m().isZero(0.0))
     throw BadInput(
@@ -66,20 +105,28 @@ CondensedDynamics::CondensedDynamics(StaticSolver& solver, const std::vector<Nod
                              std::to_string(input) + " ended with " + describe(report.status),
                          report.iterations, report.residual, report.tolerance);
   };
+  const auto restUnder = [&](const Eigen::VectorXd& b, std::size_t j, int vector) {
+    const Solution rest = solver.solve(Eigen::Map<const NodalField>(b.data(), 3, b.size() / 3));
+    require(rest.report, j, vector);
+    return flat(rest.u_m);
+  };
   for (std::size_t j = 0; j < inputs.size(); ++j) {
     Eigen::VectorXd b = flat(inputs[j]);
+    NodalField f_N = inputs[j];
+    voxels->project(f_N);
+    if (options.training > 0) {
+      progress.report(static_cast<double>(j) / static_cast<double>(inputs.size()), "condensing the dynamics");
+      extend(system, basis, restUnder(b, j, 0));
+      train(system, flat(f_N), options, j, basis);
+      continue;
+    }
     for (int k = 0; k + 1 < options.vectors; ++k) {
       progress.report(++done / total, "condensing the dynamics");
-      const Solution s = solver.solve(Eigen::Map<const NodalField>(b.data(), 3, b.size() / 3));
-      require(s.report, j, k);
-      const Eigen::VectorXd x = flat(s.u_m);
-      const double size = x.norm();
-      if (!(size > 0.0) || !extend(system, basis, x)) break;
+      const Eigen::VectorXd x = restUnder(b, j, k);
+      if (!(x.norm() > 0.0) || !extend(system, basis, x)) break;
       // The next moment of the response about rest, from the orthogonal part: the same span, and no loss of digits.
       system.applyM(basis.back(), b);
     }
-    NodalField f_N = inputs[j];
-    voxels->project(f_N);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
     require(system.solve(flat(f_N), x), j, options.vectors - 1);
     extend(system, basis, std::move(x));

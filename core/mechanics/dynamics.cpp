@@ -1,5 +1,6 @@
 #include "mechanics/dynamics.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "base/error.h"
@@ -54,6 +55,48 @@ NodalField nodal(const Eigen::VectorXd& x) {
   return Eigen::Map<const NodalField>(x.data(), 3, x.size() / 3);
 }
 
+/// The motion without the system's free modes R, and their amounts; without free modes, the motion itself.
+struct Split {
+  Eigen::MatrixXd R, MR;            ///< n × modes
+  Eigen::VectorXd q, v;             ///< M-orthogonal to R
+  Eigen::VectorXd distance, speed;  ///< of the modes
+
+  Split(const DynamicSystem& system, const Eigen::VectorXd& q0, const Eigen::VectorXd& v0)
+      : R(system.freeModes()), q(q0), v(v0) {
+    MR.resize(R.rows(), R.cols());
+    Eigen::VectorXd Mr(q.size());
+    for (Eigen::Index c = 0; c < R.cols(); ++c) {
+      system.applyM(R.col(c), Mr);
+      MR.col(c) = Mr;
+    }
+    if (R.cols() == 0) return;
+    distance = MR.transpose() * q;
+    speed = MR.transpose() * v;
+    q -= R * distance;
+    v -= R * speed;
+  }
+
+  void withoutRigidForce(Eigen::VectorXd& b) const {
+    if (R.cols() > 0) b -= MR * (R.transpose() * b).eval();
+  }
+
+  void advance(DynamicState& state, Eigen::VectorXd& dv, double h, double alpha, const Eigen::VectorXd& load) {
+    if (R.cols() > 0) dv -= R * (MR.transpose() * dv).eval();
+    v += dv;
+    q += h * v;
+    state.a = dv / h;
+    state.v = v;
+    state.q = q;
+    if (R.cols() == 0) return;
+    const Eigen::VectorXd gain = (h / (1 + h * alpha)) * (R.transpose() * load - alpha * speed);
+    speed += gain;
+    distance += h * speed;
+    state.a += R * (gain / h);
+    state.v += R * speed;
+    state.q += R * distance;
+  }
+};
+
 }  // namespace
 
 Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eigen::VectorXd& q0,
@@ -73,12 +116,14 @@ Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eige
   DynamicState state{0, 0.0, q0, v0, Eigen::VectorXd::Zero(n)};
   Eigen::VectorXd Kq(n), Kv(n), Mv(n), dv = Eigen::VectorXd::Zero(n);
   const double fNorm = f.norm();
+  Split split(system, q0, v0);
   const auto loadAt = [&](double t) { return options.ramp_s > 0.0 ? std::min(1.0, t / options.ramp_s) : 1.0; };
   const auto observe = [&](double factor) {
-    system.applyK(state.q, Kq);
-    system.applyM(state.v, Mv);
+    system.applyK(split.q, Kq);
+    system.applyM(split.v, Mv);
     out.times_s.push_back(state.t_s);
-    out.energies.push_back({0.5 * state.v.dot(Mv), 0.5 * state.q.dot(Kq), -factor * f.dot(state.q)});
+    out.energies.push_back(
+        {0.5 * (split.v.dot(Mv) + split.speed.squaredNorm()), 0.5 * split.q.dot(Kq), -factor * f.dot(state.q)});
     if (!options.probes.empty()) {
       Eigen::VectorXd seen(static_cast<Eigen::Index>(options.probes.size()));
       for (Eigen::Index i = 0; i < seen.size(); ++i) seen[i] = state.q[options.probes[static_cast<std::size_t>(i)]];
@@ -92,17 +137,16 @@ Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eige
     progress.report(static_cast<double>(state.step) / steps, "time stepping");
     // The load at the end of the step, as every other force in the implicit scheme.
     const double factor = loadAt((state.step + 1) * h);
-    system.applyK(state.v, Kv);
-    const Eigen::VectorXd b = h * (factor * f - Kq - (h + beta) * Kv - alpha * Mv);
+    system.applyK(split.v, Kv);
+    Eigen::VectorXd b = h * (factor * f - Kq - (h + beta) * Kv - alpha * Mv);
+    split.withoutRigidForce(b);
     const SolveReport report = system.solve(b, dv);
     merge(out.worst, report, out.steps == 0);
     if (!dv.allFinite()) {
       out.worst.status = SolveStatus::NotFinite;
       break;
     }
-    state.a = dv / h;
-    state.v += dv;
-    state.q += h * state.v;
+    split.advance(state, dv, h, alpha, factor * f);
     state.t_s = ++state.step * h;
     out.steps = state.step;
     observe(factor);
@@ -159,6 +203,19 @@ DynamicSolution solveDynamic(const Problem& problem, const DynamicOptions& dynam
 DynamicSolution solveDynamic(const MeshfreeModel& model, const DynamicOptions& dynamic, const SolverOptions& solver,
                              const Progress& progress) {
   MatrixSystem system(model.K(), model.M(), solver, model.borders());
+  if (model.voxels().fixedCount() == 0 && model.voxels().springs().empty()) {
+    const VoxelMesh& mesh = model.voxels().mesh();
+    Eigen::MatrixXd rigid(model.dofs(), 6);
+    for (int c = 0; c < 6; ++c) {
+      NodalField motion(3, mesh.nodeCount());
+      for (int node = 0; node < mesh.nodeCount(); ++node) {
+        const Eigen::Vector3d axis = Eigen::Vector3d::Unit(c % 3);
+        motion.col(node) = c < 3 ? axis : Eigen::Vector3d(axis.cross(mesh.position_m(node)));
+      }
+      rigid.col(c) = model.nearest(motion);
+    }
+    system.setFreeModes(rigid);
+  }
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system.size());
   DynamicSolution out;
   out.trajectory = integrate(system, model.load(model.load_N()), zero, zero, dynamic, progress);

@@ -26,7 +26,13 @@ class DynamicSystem {
   virtual void prepare(double m, double k) = 0;
   /// x: the start on entry where its size fits, the solution on return.
   virtual SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const = 0;
+  /// Motions r without any energy, K r = 0, as columns with rᵀ M r = 1 and orthogonal in M: the rigid motions of a body
+  /// that nothing holds. None by default.
+  virtual Eigen::MatrixXd freeModes() const { return {}; }
 };
+
+/// The columns made M-orthonormal (Gram-Schmidt, repeated), those that depend on earlier ones left out.
+Eigen::MatrixXd massOrthonormal(const DynamicSystem& system, const Eigen::MatrixXd& vectors);
 
 /// Stored matrices: a mesh-free model, or any small system. SolverOptions::kind Auto and Factorised: dense Cholesky,
 /// made once in prepare; Cg: conjugate gradients from the last solution (iterations = 200 without preconditioner: as
@@ -41,8 +47,13 @@ class MatrixSystem : public DynamicSystem {
   void applyM(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
   void prepare(double m, double k) override;
   SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const override;
+  /// Declares motions without energy (columns, any length). Throws BadArgument where one has K r ≠ 0 (1e-8 of the size
+  /// that rounding could explain).
+  void setFreeModes(const Eigen::MatrixXd& modes);
+  Eigen::MatrixXd freeModes() const override { return freeModes_; }
 
  private:
+  Eigen::MatrixXd freeModes_;
   Eigen::SparseMatrix<double> K_, M_, A_;
   SolverOptions options_;
   std::vector<int> borders_;
@@ -51,21 +62,24 @@ class MatrixSystem : public DynamicSystem {
 };
 
 /// The full voxel FEM, vectors are nodal fields column by column (3 × node + axis), 0 at fixed degrees of freedom.
-/// Solved by CG with the preconditioner of the options (block-Jacobi where they say Auto) from the last solution.
+/// SolverOptions::kind: Cg with its preconditioner, Multigrid (of the step's own matrix) and Cg in it, Factorised up to
+/// StaticSolver::factorisedLimit, all from the last solution; Auto factorises small bodies, else takes block-Jacobi CG
+/// where the step is short enough for the mass to rule, Multigrid where it is not, and says why. Forces at fixed
+/// degrees of freedom are left out. Its free modes are the six rigid motions where the body has no support at all.
 class VoxelSystem : public DynamicSystem {
  public:
   explicit VoxelSystem(std::shared_ptr<const VoxelOperator> voxels, const SolverOptions& options = {});
-  Eigen::Index size() const override { return voxels_->dofs(); }
+  ~VoxelSystem() override;
+  Eigen::Index size() const override;
   void applyK(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
   void applyM(const Eigen::VectorXd& x, Eigen::VectorXd& y) const override;
   void prepare(double m, double k) override;
   SolveReport solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const override;
+  Eigen::MatrixXd freeModes() const override;
 
  private:
-  std::shared_ptr<const VoxelOperator> voxels_;
-  SolverOptions options_;
-  double m_ = 1.0, k_ = 1.0;
-  VectorMap preconditioner_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 struct DynamicState {
@@ -107,6 +121,9 @@ struct Trajectory {
 
 /// Implicit Euler [baraff1998large] with the complete right-hand side, C = αM + βK:
 ///   (M + hC + h²K) Δv = h (f − K q − C v − h K v),  v += Δv,  q += h v.
+/// Free modes R of the system are split off, as K R = 0 lets them be: v = R a + v_e with (1 + hα) Δa = h (Rᵀf − α a),
+/// and the rest v_e, q_e is kept M-orthogonal to R. So linear and angular momentum (of the reference shape) are kept to
+/// rounding whatever the solver's tolerance, and elastic forces do not lose digits to the distance travelled.
 /// Unconditionally stable: kinetic + elastic energy + load potential never grows under a constant load. First order in
 /// h. Throws BadInput for h_s ≤ 0, end_s < 0, negative damping, more than 1e9 steps; a step that does not converge is
 /// told in worst, and one with values that are not finite ends the run there.

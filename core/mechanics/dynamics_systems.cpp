@@ -1,8 +1,6 @@
-#include <Eigen/LU>
 #include <cmath>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "mechanics/dynamics.h"
 
 namespace glisson::mechanics {
@@ -63,74 +61,42 @@ SolveReport MatrixSystem::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) co
                             options_.tolerance);
 }
 
-VoxelSystem::VoxelSystem(std::shared_ptr<const VoxelOperator> voxels, const SolverOptions& options)
-    : voxels_(std::move(voxels)), options_(options) {
-  if (options_.kind == SolverKind::Auto || options_.kind == SolverKind::Factorised ||
-      options_.kind == SolverKind::Multigrid)
-    options_.preconditioner = Preconditioner::BlockJacobi;
-}
-
-void VoxelSystem::applyK(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
-  const NodalField u = Eigen::Map<const NodalField>(x.data(), 3, x.size() / 3);
-  NodalField f;
-  voxels_->apply(u, f);
-  y = Eigen::Map<const Eigen::VectorXd>(f.data(), f.size());
-}
-
-void VoxelSystem::applyM(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
-  NodalField f = voxels_->applyMass(Eigen::Map<const NodalField>(x.data(), 3, x.size() / 3));
-  voxels_->project(f);
-  y = Eigen::Map<const Eigen::VectorXd>(f.data(), f.size());
-}
-
-void VoxelSystem::prepare(double m, double k) {
-  m_ = m, k_ = k;
-  preconditioner_ = nullptr;
-  if (options_.preconditioner == Preconditioner::None) return;
-  // The diagonal of a box's consistent mass is 8/27 of its row sum.
-  const Eigen::VectorXd mass_kg = (8.0 / 27.0) * voxels_->lumpedMass_kg();
-  if (options_.preconditioner == Preconditioner::Jacobi) {
-    NodalField inverse = k * voxels_->diagonal();
-    inverse.rowwise() += m * mass_kg.transpose();
-    inverse = inverse.cwiseInverse().eval();
-    voxels_->project(inverse);
-    const Eigen::VectorXd diagonal = Eigen::Map<const Eigen::VectorXd>(inverse.data(), inverse.size());
-    preconditioner_ = [diagonal](const Eigen::VectorXd& r, Eigen::VectorXd& z) { z = diagonal.cwiseProduct(r); };
-    return;
+void MatrixSystem::setFreeModes(const Eigen::MatrixXd& modes) {
+  if (modes.rows() != size()) throw BadArgument("setFreeModes: the modes do not have the system's size");
+  freeModes_ = massOrthonormal(*this, modes);
+  Eigen::VectorXd Kr(size());
+  for (Eigen::Index c = 0; c < freeModes_.cols(); ++c) {
+    applyK(freeModes_.col(c), Kr);
+    const double scale = K_.diagonal().cwiseAbs().cwiseProduct(freeModes_.col(c).cwiseAbs()).norm();
+    if (Kr.norm() > 1e-8 * scale)
+      throw BadArgument("setFreeModes: mode " + std::to_string(c) + " stores energy, so it is not free");
   }
-  std::vector<Eigen::Matrix3d> blocks = voxels_->blockDiagonals();
-  for (std::size_t n = 0; n < blocks.size(); ++n) {
-    const auto node = static_cast<int>(n);
-    Eigen::Matrix3d A = k * blocks[n] + m * mass_kg[node] * Eigen::Matrix3d::Identity();
-    for (int c = 0; c < 3; ++c)
-      if (voxels_->isFixed(node, c)) {
-        A.row(c).setZero();
-        A.col(c).setZero();
-        A(c, c) = 1.0;
-      }
-    blocks[n] = A.inverse();
-    for (int c = 0; c < 3; ++c)
-      if (voxels_->isFixed(node, c)) blocks[n](c, c) = 0.0;
-  }
-  preconditioner_ = [blocks = std::move(blocks)](const Eigen::VectorXd& r, Eigen::VectorXd& z) {
-    parallelChunks(blocks.size(), 8192, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t n = begin; n < end; ++n) {
-        const auto at = static_cast<Eigen::Index>(3 * n);
-        z.segment<3>(at) = blocks[n] * r.segment<3>(at);
-      }
-    });
-  };
 }
 
-SolveReport VoxelSystem::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
-  Eigen::VectorXd Kx(b.size());
-  const VectorMap apply = [&](const Eigen::VectorXd& from, Eigen::VectorXd& to) {
-    applyK(from, Kx);
-    applyM(from, to);
-    to = m_ * to + k_ * Kx;
-  };
-  return conjugateGradients(apply, preconditioner_, b, x, options_.iterations > 0 ? options_.iterations : ownLimit,
-                            options_.tolerance);
+Eigen::MatrixXd massOrthonormal(const DynamicSystem& system, const Eigen::MatrixXd& vectors) {
+  Eigen::MatrixXd out(vectors.rows(), vectors.cols());
+  Eigen::Index count = 0;
+  Eigen::VectorXd Mx(vectors.rows());
+  for (Eigen::Index c = 0; c < vectors.cols(); ++c) {
+    Eigen::VectorXd x = vectors.col(c);
+    system.applyM(x, Mx);
+    const double before = std::sqrt(x.dot(Mx));
+    if (!(before > 0.0)) continue;
+    x /= before;
+    double length = 1.0;
+    for (int pass = 0; pass < 3; ++pass) {
+      system.applyM(x, Mx);
+      for (Eigen::Index b = 0; b < count; ++b) x -= out.col(b).dot(Mx) * out.col(b);
+      system.applyM(x, Mx);
+      length = std::sqrt(x.dot(Mx));
+      if (!(length > 1e-10)) break;
+      // After one pass, a vector that keeps its length is orthogonal to working accuracy.
+      x /= length;
+      if (pass > 0 && length > 0.9) break;
+    }
+    if (length > 1e-10) out.col(count++) = x;
+  }
+  return out.leftCols(count);
 }
 
 }  // namespace glisson::mechanics

@@ -13,8 +13,8 @@ namespace glisson::mechanics {
 namespace {
 
 /// Sparse lower triangle, summed from the cells. dofOf: 3 nodeSlots() numbers, −1 where inactive.
-cholmod_sparse* assemble(const LatticeOperator<double>& A, const HexMatrix& K0, const std::vector<int>& dofOf, int dofs,
-                         cholmod_common* common) {
+cholmod_sparse* assemble(const LatticeOperator<double>& A, const HexMatrix& K0, const Eigen::Matrix<double, 8, 8>& M0,
+                         const std::vector<int>& dofOf, int dofs, cholmod_common* common) {
   const RowLattice& L = *A.lattice;
   const std::size_t n = L.nodeSlots();
   std::size_t filled = 0;
@@ -39,6 +39,7 @@ cholmod_sparse* assemble(const LatticeOperator<double>& A, const HexMatrix& K0, 
       for (int s = 0; s < cells.length; ++s) {
         const double E = A.E[cells.offset + static_cast<std::size_t>(s)];
         if (E == 0) continue;
+        const double rho = A.rho.empty() ? 0.0 : A.rho[cells.offset + static_cast<std::size_t>(s)];
         std::array<int, 24> dof{};
         for (int a = 0; a < 8; ++a)
           for (int c = 0; c < 3; ++c)
@@ -47,7 +48,8 @@ cholmod_sparse* assemble(const LatticeOperator<double>& A, const HexMatrix& K0, 
                       L.slot(cells.begin + s + (a & 1), j + (a >> 1 & 1), k + (a >> 2 & 1))];
         for (int a = 0; a < 24; ++a)
           for (int b = 0; b < 24; ++b)
-            add(dof[static_cast<std::size_t>(a)], dof[static_cast<std::size_t>(b)], E * K0(a, b));
+            add(dof[static_cast<std::size_t>(a)], dof[static_cast<std::size_t>(b)],
+                E * K0(a, b) + (a % 3 == b % 3 ? rho * M0(a / 3, b / 3) : 0.0));
       }
     }
   for (const auto& [slot, k] : A.springs) {
@@ -89,7 +91,8 @@ struct Factorisation::State {
   State& operator=(const State&) = delete;
 };
 
-Factorisation::Factorisation(const LatticeOperator<double>& A, const HexMatrix& K0)
+Factorisation::Factorisation(const LatticeOperator<double>& A, const HexMatrix& K0,
+                             const Eigen::Matrix<double, 8, 8>& M0)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
   openblas_set_num_threads(1);
@@ -117,7 +120,7 @@ Factorisation::Factorisation(const LatticeOperator<double>& A, const HexMatrix& 
   s.common.supernodal = CHOLMOD_SUPERNODAL;
   s.common.final_ll = 1;
   s.common.print = 0;
-  cholmod_sparse* K = assemble(A, K0, dofOf, dofs(), &s.common);
+  cholmod_sparse* K = assemble(A, K0, M0, dofOf, dofs(), &s.common);
   if (K != nullptr) {
     s.L = cholmod_l_analyze(K, &s.common);
     if (s.L != nullptr) cholmod_l_factorize(K, s.L, &s.common);

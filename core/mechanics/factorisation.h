@@ -13,9 +13,10 @@ namespace glisson::mechanics {
 /// not fixed. Supernodal, one thread (the same bits on one machine whatever the thread count).
 class Factorisation {
  public:
-  /// K0: the element stiffness that A.blocks was made from. Throws SolverFailed where K is not positive definite or
-  /// memory runs out.
-  Factorisation(const LatticeOperator<double>& A, const HexMatrix& K0);
+  /// K0 and M0: the element stiffness and mass that A.blocks was made from; M0 matters where A.rho is given. Throws
+  /// SolverFailed where the matrix is not positive definite or memory runs out.
+  Factorisation(const LatticeOperator<double>& A, const HexMatrix& K0,
+                const Eigen::Matrix<double, 8, 8>& M0 = Eigen::Matrix<double, 8, 8>::Zero());
   ~Factorisation();
   Factorisation(Factorisation&&) noexcept;
   Factorisation& operator=(Factorisation&&) noexcept;

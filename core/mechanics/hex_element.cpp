@@ -112,6 +112,17 @@ Eigen::Matrix<double, 8, 8> hexMass(const Eigen::Vector3d& h_m) {
   return M;
 }
 
+std::array<double, 8> walshValues(const Eigen::Matrix<double, 8, 8>& M0) {
+  std::array<double, 8> values{};
+  for (int m = 0; m < 8; ++m) {
+    double sum = 0;
+    for (int a = 0; a < 8; ++a)
+      for (int b = 0; b < 8; ++b) sum += walshSign(a, m) * walshSign(b, m) * M0(a, b);
+    values[static_cast<std::size_t>(m)] = sum / 64;
+  }
+  return values;
+}
+
 std::array<Eigen::Matrix3d, 8> walshBlocks(const HexMatrix& K0) {
   std::array<Eigen::Matrix3d, 8> blocks;
   double outside = 0;

@@ -41,5 +41,8 @@ Eigen::Matrix<double, 8, 8> hexMass(const Eigen::Vector3d& h_m);
 /// The entries of translations are
 /// exactly 0. Throws BadArgument where K₀ lacks the symmetry (entries outside the blocks above 1e-12 of the largest).
 std::array<Eigen::Matrix3d, 8> walshBlocks(const HexMatrix& K0);
+/// The same for a mass matrix such as hexMass, which is diagonal over Walsh functions: values[m] = 1/64 Σ_{a,b}
+/// (−1)^{|a ∧ m| + |b ∧ m|} M₀(a, b).
+std::array<double, 8> walshValues(const Eigen::Matrix<double, 8, 8>& M0);
 
 }  // namespace glisson::mechanics

@@ -31,6 +31,7 @@ void LatticeOperator<T>::applyCells(const T* x, T* y) const {
         }
       }
       task.E = E.data() + row.offset;
+      task.rho = rho.empty() ? nullptr : rho.data() + row.offset;
       task.n = static_cast<std::size_t>(row.length);
       addRow(task, blocks);
     }

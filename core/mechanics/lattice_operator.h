@@ -10,9 +10,9 @@
 
 namespace glisson::mechanics {
 
-/// K of a voxel body on RowLattice storage, T = float or double: y = P (Σ E_e K₀ + springs) x, P = zero at fixed
-/// degrees of freedom. Arrays have 3 nodeSlots() values; x is 0 at fixed degrees of freedom. Thread-parallel, the same
-/// bits with any number of threads.
+/// K of a voxel body on RowLattice storage, T = float or double: y = P (Σ (E_e K₀ + rho_e M₀) + springs) x, P = zero at
+/// fixed degrees of freedom; the mass is there for implicit time steps. Arrays have 3 nodeSlots() values; x is 0 at
+/// fixed degrees of freedom. Thread-parallel, the same bits with any number of threads.
 template <class T>
 struct LatticeOperator {
   struct SlotSpring {
@@ -23,11 +23,12 @@ struct LatticeOperator {
   std::shared_ptr<const RowLattice> lattice;
   RowBlocks<T> blocks;
   std::vector<T> E;                 ///< per cell slot
+  std::vector<T> rho;               ///< likewise, or empty: no mass
   std::vector<SlotSpring> springs;  ///< at most one per slot, by slot
   std::vector<std::size_t> fixed;   ///< positions in the 3 nodeSlots() array, ascending
 
   std::size_t size() const { return 3 * lattice->nodeSlots(); }
-  /// y = Σ E_e K₀ x, without supports.
+  /// y = Σ (E_e K₀ + rho_e M₀) x, without supports.
   void applyCells(const T* x, T* y) const;
   /// y += springs x.
   void addSprings(const T* x, T* y) const;

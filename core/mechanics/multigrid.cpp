@@ -47,23 +47,28 @@ struct Multigrid::State {
   }
 };
 
-Multigrid::Multigrid(const VoxelOperator& op, const MultigridOptions& options) : state_(std::make_unique<State>()) {
+Multigrid::Multigrid(const VoxelOperator& op, const MultigridOptions& options, const MultigridMatrix& matrix)
+    : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.options = options;
   const VoxelBody& body = op.body();
   // Float needs numbers near 1: moduli relative to the stiffest, edges to their geometric mean.
-  const double unitE = *std::max_element(body.E_Pa.begin(), body.E_Pa.end());
   const double unitH = std::cbrt(body.h_m.prod());
+  const double density = matrix.mass * body.density_kg_m3;
+  const double unitE =
+      std::max(matrix.stiffness * *std::max_element(body.E_Pa.begin(), body.E_Pa.end()), density * unitH * unitH);
   LevelGeometry finest;
   finest.cells = body.cells;
   finest.h = body.h_m / unitH;
   finest.E = body.E_Pa;
-  for (double& E : finest.E) E /= unitE;
+  for (double& E : finest.E) E *= matrix.stiffness / unitE;
+  if (density > 0)
+    for (const double E : body.E_Pa) finest.rho.push_back(E != 0 ? density * unitH * unitH / unitE : 0.0);
   s.levels.push_back(makeLevel(std::move(finest), op.element(), body.poisson));
   MultigridLevel& first = s.levels.front();
   first.exact.fixed = op.lattice().fixed;
   for (auto spring : op.lattice().springs) {
-    for (double& k : spring.k) k /= unitE * unitH;
+    for (double& k : spring.k) k *= matrix.stiffness / (unitE * unitH);
     first.exact.springs.push_back(spring);
   }
   first.finish();
@@ -73,10 +78,11 @@ Multigrid::Multigrid(const VoxelOperator& op, const MultigridOptions& options) :
     MultigridLevel& last = s.levels.back();
     last.exact = {};
     last.geometry.E = {};
+    last.geometry.rho = {};
     s.levels.push_back(std::move(next));
   }
   MultigridLevel& last = s.levels.back();
-  s.coarsest = std::make_unique<Factorisation>(last.exact, last.K0);
+  s.coarsest = std::make_unique<Factorisation>(last.exact, last.K0, last.M0);
   s.right.resize(last.A.size());
   s.left.resize(last.A.size());
 }

@@ -14,17 +14,25 @@ struct MultigridOptions {
   int coarsestDofs = 1500;  ///< factorised at or below this size
 };
 
+/// The matrix that a hierarchy approximates: stiffness · K + mass · M, M the body's consistent mass matrix (kg). The
+/// matrix of an implicit time step has both.
+struct MultigridMatrix {
+  double stiffness = 1;  ///< positive
+  double mass = 0;       ///< 0 or more
+};
+
 /// One V-cycle as a preconditioner, in float. Coarse levels take the mean of the moduli (empty = 0) and rebuild the
 /// element; springs are restricted by row sums; only axes whose cells are shorter than 1.5 × the shortest are halved,
 /// so flat or long cells become cubes first. The coarsest level is factorised in double.
 class Multigrid {
  public:
-  explicit Multigrid(const VoxelOperator& op, const MultigridOptions& options = {});
+  /// Throws SolverFailed where the coarsest level has no factor (a body that is not held, without mass).
+  explicit Multigrid(const VoxelOperator& op, const MultigridOptions& options = {}, const MultigridMatrix& matrix = {});
   ~Multigrid();
   Multigrid(Multigrid&&) noexcept;
   Multigrid& operator=(Multigrid&&) noexcept;
 
-  /// z ≈ K⁻¹ r up to a constant factor, row storage; z is 0 at fixed degrees of freedom. Same bits with any number of
+  /// z ≈ A⁻¹ r up to a constant factor, row storage; z is 0 at fixed degrees of freedom. Same bits with any number of
   /// threads. Not for several threads at once.
   void cycle(const std::vector<double>& r, std::vector<double>& z);
 

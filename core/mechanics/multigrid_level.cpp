@@ -21,19 +21,19 @@ void forRange(std::size_t n, const F& f) {
   parallelChunks(n, chunk, f);
 }
 
-/// Sum of the moduli of the cells around each node slot.
-std::vector<double> modulusAround(const LatticeOperator<double>& A) {
-  const RowLattice& L = *A.lattice;
+/// Sum over the cells around each node slot of one value per cell slot.
+std::vector<double> sumAround(const RowLattice& L, const std::vector<double>& perCell) {
   std::vector<double> sum(L.nodeSlots(), 0.0);
+  if (perCell.empty()) return sum;
   for (int k = 0; k < L.cells().z(); ++k)
     for (int j = 0; j < L.cells().y(); ++j) {
       const RowLattice::Row& row = L.cellRow(j, k);
       if (row.length == 0) continue;
       for (int r = 0; r < 4; ++r) {
         double* out = sum.data() + L.slot(row.begin, j + (r & 1), k + (r >> 1));
-        const double* E = A.E.data() + row.offset;
-        for (int i = 0; i < row.length; ++i) out[i] += E[i];
-        for (int i = 0; i < row.length; ++i) out[i + 1] += E[i];
+        const double* value = perCell.data() + row.offset;
+        for (int i = 0; i < row.length; ++i) out[i] += value[i];
+        for (int i = 0; i < row.length; ++i) out[i + 1] += value[i];
       }
     }
   return sum;
@@ -82,9 +82,11 @@ MultigridLevel makeLevel(LevelGeometry geometry, HexElement element, double pois
   MultigridLevel level;
   level.geometry = std::move(geometry);
   level.K0 = hexStiffness(element, poisson, level.geometry.h);
+  level.M0 = hexMass(level.geometry.h);
   level.exact.lattice = std::make_shared<RowLattice>(level.geometry.cells, level.geometry.E);
-  level.exact.blocks = RowBlocks<double>(walshBlocks(level.K0));
+  level.exact.blocks = RowBlocks<double>(walshBlocks(level.K0), walshValues(level.M0));
   level.exact.E = cellSlotsOf<double>(*level.exact.lattice, level.geometry.E, 1.0);
+  if (!level.geometry.rho.empty()) level.exact.rho = cellSlotsOf<double>(*level.exact.lattice, level.geometry.rho, 1.0);
   return level;
 }
 
@@ -92,8 +94,9 @@ void MultigridLevel::finish() {
   const RowLattice& L = *exact.lattice;
   const std::size_t n = L.nodeSlots();
   A.lattice = exact.lattice;
-  A.blocks = RowBlocks<float>(walshBlocks(K0));
+  A.blocks = RowBlocks<float>(walshBlocks(K0), walshValues(M0));
   A.E.assign(exact.E.begin(), exact.E.end());
+  A.rho.assign(exact.rho.begin(), exact.rho.end());
   A.fixed = exact.fixed;
   A.springs.clear();
   for (const auto& s : exact.springs) {
@@ -101,11 +104,13 @@ void MultigridLevel::finish() {
     f.slot = s.slot;
     for (std::size_t v = 0; v < 6; ++v) f.k[v] = static_cast<float>(s.k[v]);
   }
-  const std::vector<double> around = modulusAround(exact);
+  const std::vector<double> around = sumAround(L, exact.E);
+  const std::vector<double> massAround = sumAround(L, exact.rho);
   std::vector<double> diagonal(3 * n);
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t s = 0; s < n; ++s)
-      diagonal[c * n + s] = around[s] * K0(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(c));
+      diagonal[c * n + s] =
+          around[s] * K0(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(c)) + massAround[s] * M0(0, 0);
   for (const auto& [slot, k] : exact.springs) {
     diagonal[slot] += k[0];
     diagonal[n + slot] += k[3];
@@ -123,11 +128,13 @@ void MultigridLevel::finish() {
 }
 
 void MultigridLevel::estimateLambda() {
-  // λmax(D⁻¹K) is at most the largest over single cells, whatever the moduli; the power method tightens it.
+  // λmax(D⁻¹K) is at most the largest over single cells, whatever the moduli; the power method tightens it. That of a
+  // box's consistent mass is 27/8.
   const Eigen::VectorXd scale = K0.diagonal().cwiseSqrt().cwiseInverse();
-  const double bound = std::max(3.0, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
-                                         scale.asDiagonal() * K0 * scale.asDiagonal(), Eigen::EigenvaluesOnly)
-                                         .eigenvalues()[23]);
+  const double bound = std::max(exact.rho.empty() ? 3.0 : 3.375,
+                                Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+                                    scale.asDiagonal() * K0 * scale.asDiagonal(), Eigen::EigenvaluesOnly)
+                                    .eigenvalues()[23]);
   Random random(17);
   for (std::size_t i = 0; i < x.size(); ++i)
     x[i] = inverseDiagonal[i] != 0 ? static_cast<float>(random.uniform(-1, 1)) : 0.0F;
@@ -201,13 +208,15 @@ MultigridLevel coarsen(MultigridLevel& fine, HexElement element, double poisson)
   }
   next.cells = coarserCells(g.cells, fine.halved);
   next.E = coarserModuli(g.cells, g.E, fine.halved);
+  if (!g.rho.empty()) next.rho = coarserModuli(g.cells, g.rho, fine.halved);
   MultigridLevel coarse = makeLevel(std::move(next), element, poisson);
 
   const RowLattice& F = *fine.exact.lattice;
   const RowLattice& C = *coarse.exact.lattice;
   const std::size_t nf = F.nodeSlots();
   const std::size_t nc = C.nodeSlots();
-  const std::vector<double> around = modulusAround(fine.exact);
+  const std::vector<double> around = sumAround(F, fine.exact.E);
+  const std::vector<double> massAround = sumAround(F, fine.exact.rho);
   std::vector<char> fixed(3 * nf, 0);
   for (const std::size_t f : fine.exact.fixed) fixed[f] = 1;
   std::vector<char> reached(3 * nc, 0);
@@ -225,7 +234,8 @@ MultigridLevel coarsen(MultigridLevel& fine, HexElement element, double poisson)
         } else if (weight == 1) {
           coincident[c * nc + parent] = 1;
         } else {
-          const double diagonal = around[slot] * fine.K0(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(c));
+          const double diagonal = around[slot] * fine.K0(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(c)) +
+                                  massAround[slot] * fine.M0(0, 0);
           spring[parent][c == 0 ? 0 : c == 1 ? 3 : 5] += fixedAsSpring * weight * diagonal;
           sprung[parent] = 1;
         }

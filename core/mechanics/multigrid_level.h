@@ -15,12 +15,14 @@ struct LevelGeometry {
   Eigen::Vector3i cells = Eigen::Vector3i::Zero();
   Eigen::Vector3d h = Eigen::Vector3d::Zero();
   std::vector<double> E;
+  std::vector<double> rho;  ///< per cell like E, or empty: no mass
 };
 
 /// One level of the hierarchy: operator, smoother, work arrays. Arrays have A.size() values.
 struct MultigridLevel {
   LevelGeometry geometry;
   HexMatrix K0;
+  Eigen::Matrix<double, 8, 8> M0;
   LatticeOperator<double> exact;  ///< kept for set-up and for the coarsest level only
   LatticeOperator<float> A;
   Halved halved{};                     ///< how the next level is made from this one

@@ -19,6 +19,9 @@ constexpr int iterationLimit = 200;    ///< of all steps
 constexpr int plainLimit = 15;         ///< per step, full Newton steps
 constexpr int searchLimit = 25;        ///< per step, with line search
 constexpr int quick = 8;               ///< iterations after which the next step may grow
+constexpr int wastedLimit = 60;        ///< iterations of attempts that failed
+constexpr int stalledPlain = 4;        ///< iterations in a row that fail to halve the residual: given up
+constexpr int stalledSearch = 8;       ///< likewise with line search
 
 struct Newton {
   LargeDeformationModel model;
@@ -27,6 +30,7 @@ struct Newton {
   Eigen::VectorXd f, prescribed, stiffness;  ///< load, prescribed displacements, diagonal of the undeformed stiffness
   bool moves = false;                        ///< some prescribed displacement is not 0
   int iterations = 0;
+  int wasted = 0;  ///< iterations of attempts that failed
   bool atRounding = false;
   const Progress& progress;
   double from = 0, to = 1;  ///< load fractions of the present step
@@ -90,6 +94,8 @@ bool Newton::step(double t, Eigen::VectorXd& u, bool search) {
   double energy = 0;
   Eigen::VectorXd force;
   Eigen::VectorXd du;
+  double last = 0;
+  int stalled = 0;
   for (int iteration = 0; iteration <= (search ? searchLimit : plainLimit); ++iteration) {
     progress.check();
     if (iterations >= iterationLimit || !model.evaluate(u, Tangent::Exact, energy, force)) return false;
@@ -105,6 +111,9 @@ bool Newton::step(double t, Eigen::VectorXd& u, bool search) {
         return !folded(u);
       }
     }
+    stalled = iteration > 0 && size > 0.5 * last ? stalled + 1 : 0;
+    last = size;
+    if (stalled >= (search ? stalledSearch : stalledPlain)) return false;
     std::ostringstream what;
     what << "load " << static_cast<int>(100 * t) << " %, Newton iteration " << iteration + 1;
     progress.report(from + (to - from) * iteration / (searchLimit + 1.0), what.str());
@@ -135,12 +144,15 @@ bool Newton::run(Eigen::VectorXd& u, double& reached, int& steps) {
     const double target = std::min(1.0, reached + size);
     from = reached;
     to = target;
-    const int before = iterations;
+    int before = iterations;
     Eigen::VectorXd trial = u;
     bool good = step(target, trial, false);
-    if (!good && size <= searchedStep) {
+    if (!good) wasted += iterations - before;
+    if (!good && size <= searchedStep && wasted < wastedLimit) {
       trial = u;
+      before = iterations;
       good = step(target, trial, true);
+      if (!good) wasted += iterations - before;
     }
     if (good) {
       u = trial;
@@ -149,7 +161,7 @@ bool Newton::run(Eigen::VectorXd& u, double& reached, int& steps) {
       if (iterations - before <= quick) size *= 2;
     } else {
       size /= 2;
-      if (size < smallestStep || iterations >= iterationLimit) return false;
+      if (size < smallestStep || iterations >= iterationLimit || wasted >= wastedLimit) return false;
     }
   }
   return true;

@@ -40,8 +40,8 @@ GLISSON_INLINE void transformRows(V (&w)[2][4][3]) {
     }
 }
 
-template <class T, int Bytes>
-GLISSON_INLINE void addRowWith(const RowTask<T>& task, const RowBlocks<T>& blocks) {
+template <class T, int Bytes, bool WithMass>
+GLISSON_INLINE void addRowOf(const RowTask<T>& task, const RowBlocks<T>& blocks) {
   using V = typename VectorOf<T, Bytes>::type;
   constexpr std::size_t lanes = static_cast<std::size_t>(Bytes) / sizeof(T);
   using Lanes = std::make_index_sequence<lanes>;
@@ -59,6 +59,8 @@ GLISSON_INLINE void addRowWith(const RowTask<T>& task, const RowBlocks<T>& block
       }
     transformRows(w);
     const V E = *reinterpret_cast<const V*>(task.E + i);
+    V rho = {};
+    if constexpr (WithMass) rho = *reinterpret_cast<const V*>(task.rho + i);
 #pragma GCC unroll 8
     for (int p = 0; p < 8; ++p) {
       const auto& B = blocks.b[static_cast<std::size_t>(p)];
@@ -69,9 +71,16 @@ GLISSON_INLINE void addRowWith(const RowTask<T>& task, const RowBlocks<T>& block
       const V fx = B[0] * x + B[1] * y + B[2] * z;
       const V fy = B[1] * x + B[3] * y + B[4] * z;
       const V fz = B[2] * x + B[4] * y + B[5] * z;
-      x = E * fx;
-      y = E * fy;
-      z = E * fz;
+      if constexpr (WithMass) {
+        const auto at = static_cast<std::size_t>(p);
+        x = E * fx + rho * (blocks.mass[at ^ 1] * x);
+        y = E * fy + rho * (blocks.mass[at ^ 2] * y);
+        z = E * fz + rho * (blocks.mass[at ^ 4] * z);
+      } else {
+        x = E * fx;
+        y = E * fy;
+        z = E * fz;
+      }
     }
     transformRows(w);
 #pragma GCC unroll 4
@@ -89,6 +98,14 @@ GLISSON_INLINE void addRowWith(const RowTask<T>& task, const RowBlocks<T>& block
   }
   for (int r = 0; r < 4; ++r)
     for (int c = 0; c < 3; ++c) task.out[r][c][task.n] += carry[r][c][lanes - 1];
+}
+
+template <class T, int Bytes>
+GLISSON_INLINE void addRowWith(const RowTask<T>& task, const RowBlocks<T>& blocks) {
+  if (task.rho != nullptr)
+    addRowOf<T, Bytes, true>(task, blocks);
+  else
+    addRowOf<T, Bytes, false>(task, blocks);
 }
 
 template <class T>
@@ -125,11 +142,12 @@ auto fastestRow() {
 }  // namespace
 
 template <class T>
-RowBlocks<T>::RowBlocks(const std::array<Eigen::Matrix3d, 8>& walsh) {
+RowBlocks<T>::RowBlocks(const std::array<Eigen::Matrix3d, 8>& walsh, const std::array<double, 8>& masses) {
   for (std::size_t p = 0; p < 8; ++p) {
     const Eigen::Matrix3d& B = walsh[p];
     const std::array<double, 6> values = {B(0, 0), B(0, 1), B(0, 2), B(1, 1), B(1, 2), B(2, 2)};
     for (std::size_t v = 0; v < 6; ++v) b[p][v] = static_cast<T>(values[v]);
+    mass[p] = static_cast<T>(masses[p]);
   }
 }
 

@@ -163,16 +163,31 @@ NodalField VoxelOperator::diagonal() const {
 
 NodalField VoxelOperator::applyMass(const NodalField& v) const {
   if (v.cols() != mesh_.nodeCount()) throw BadArgument("applyMass: the field does not belong to this mesh");
-  const Eigen::Matrix<double, 8, 8> M = body_.density_kg_m3 * hexMass(body_.h_m);
-  NodalField y = NodalField::Zero(3, mesh_.nodeCount());
-  for (int e = 0; e < mesh_.cellCount(); ++e) {
-    const std::array<int, 8> nodes = mesh_.nodesOf(e);
-    Eigen::Matrix<double, 3, 8> local;
-    for (int a = 0; a < 8; ++a) local.col(a) = v.col(nodes[static_cast<std::size_t>(a)]);
-    const Eigen::Matrix<double, 3, 8> force = local * M;
-    for (int a = 0; a < 8; ++a) y.col(nodes[static_cast<std::size_t>(a)]) += force.col(a);
+  const LatticeOperator<double> M = implicitLattice(1, 0);
+  std::vector<double> x(M.size());
+  std::vector<double> y(M.size());
+  toSlots(v, x.data());
+  M.applyCells(x.data(), y.data());
+  NodalField out;
+  fromSlots(y.data(), out);
+  return out;
+}
+
+LatticeOperator<double> VoxelOperator::implicitLattice(double mass, double stiffness) const {
+  LatticeOperator<double> A;
+  A.lattice = lattice_.lattice;
+  A.blocks = RowBlocks<double>(walshBlocks(K0_), walshValues(hexMass(body_.h_m)));
+  A.E = lattice_.E;
+  A.rho.resize(A.E.size());
+  for (std::size_t i = 0; i < A.E.size(); ++i) {
+    A.rho[i] = A.E[i] != 0 ? mass * body_.density_kg_m3 : 0.0;
+    A.E[i] *= stiffness;
   }
-  return y;
+  A.springs = lattice_.springs;
+  for (auto& spring : A.springs)
+    for (double& k : spring.k) k *= stiffness;
+  A.fixed = lattice_.fixed;
+  return A;
 }
 
 Eigen::VectorXd VoxelOperator::lumpedMass_kg() const {

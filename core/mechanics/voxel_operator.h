@@ -58,6 +58,9 @@ class VoxelOperator {
 
   /// The same operator on row storage, for solvers.
   const LatticeOperator<double>& lattice() const { return lattice_; }
+  /// mass · M + stiffness · K on row storage, M the consistent mass (kg), K with springs; fixed degrees of freedom are
+  /// projected out by its apply, not by its applyCells.
+  LatticeOperator<double> implicitLattice(double mass, double stiffness) const;
   /// Between 3 × nodeCount and the three arrays of row storage (lattice().size() values, 0 where no node).
   void toSlots(const NodalField& field, double* slots) const;
   void fromSlots(const double* slots, NodalField& field) const;

@@ -115,11 +115,12 @@ TEST(Condensed, RefusesPrescribedSupports) {
 }
 
 /// Largest difference (m) over all nodes and steps between condensed dynamics and full implicit Euler.
-double differenceFromFull(const Scene& scene, int vectors, double ramp_s, double alpha, double beta) {
+double differenceFromFull(const Scene& scene, int vectors, double ramp_s, double alpha, double beta, int training = 0) {
   StaticSolver solver = scene.solver();
   const auto voxels = std::make_shared<const VoxelOperator>(scene.body, HexElement::Incompatible, scene.supports);
   CondensedDynamicOptions options;
   options.vectors = vectors;
+  options.training = training;
   options.rayleighAlpha_1_s = alpha;
   options.rayleighBeta_s = beta;
   CondensedDynamics fast(solver, {scene.inputs[0]}, everyNode(voxels->mesh()), options);
@@ -162,6 +163,15 @@ TEST(Condensed, MoreVectorsFollowAnUndampedBlowMoreClosely) {
   const double few = differenceFromFull(scene, 4, 0.0, 0.0, 0.0);
   const double many = differenceFromFull(scene, 32, 0.0, 0.0, 0.0);
   EXPECT_LT(many, 0.1 * few);
+}
+
+TEST(Condensed, TrainedVectorsFollowABlowThatKrylovVectorsCannot) {
+  const Scene scene;
+  EXPECT_LE(differenceFromFull(scene, 12, 0.0, 1.0, 2e-3, 150), 1e-6);
+  EXPECT_GT(differenceFromFull(scene, 24, 0.0, 0.0, 0.0), 1e-6);
+  EXPECT_LE(differenceFromFull(scene, 24, 0.0, 0.0, 0.0, 150), 1e-6);
+  // What was trained with a blow serves a slow push as well.
+  EXPECT_LE(differenceFromFull(scene, 8, 0.1, 1.0, 2e-3, 150), 1e-6);
 }
 
 TEST(Condensed, DynamicsEndAtTheStaticSolutionAndLoseEnergyWhenReleased) {

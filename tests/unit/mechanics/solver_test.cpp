@@ -197,6 +197,19 @@ TEST(Solvers, AutoSaysWhy) {
   EXPECT_LE(large.residual, 1e-6);
 }
 
+TEST(Solvers, AutoFactorisesASmallBodyWhenManyLoadsHaveCome) {
+  const Problem p = cube(9, [](const Eigen::Vector3d&) { return 3e3; });
+  StaticSolver solver(p.body, p.supports, with(SolverKind::Auto, 1e-9));
+  const Solution first = solver.solve(p.f_N);
+  EXPECT_EQ(first.report.kind, "multigrid-pcg");
+  EXPECT_NE(first.report.why.find("until 8 loads"), std::string::npos);
+  Solution last;
+  for (int load = 1; load <= 8; ++load) last = solver.solve((load + 1) * p.f_N);
+  EXPECT_EQ(last.report.kind, "factorised");
+  EXPECT_NE(last.report.why.find("so many loads"), std::string::npos);
+  EXPECT_LE((last.u_m / 9 - first.u_m).norm(), 1e-7 * first.u_m.norm());
+}
+
 TEST(Solvers, FlatCellsNeedFewIterations) {
   for (const double nu : {0.3, 0.45}) {
     Problem p;
