@@ -17,7 +17,6 @@
 #include <vtkRendererCollection.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -26,8 +25,6 @@
 
 namespace glisson::render {
 namespace {
-
-std::atomic<RenderBackend> chosenBackend{RenderBackend::Auto};
 
 /// A desktop OpenGL 3.2 core context and a small pbuffer to make it current on.
 class EglContext {
@@ -149,13 +146,6 @@ void noteError(vtkObject*, unsigned long, void* client, void* data) {
 }
 
 }  // namespace
-
-void setRenderBackend(RenderBackend backend) {
-  chosenBackend = backend;
-}
-RenderBackend renderBackend() {
-  return chosenBackend;
-}
 
 struct OffscreenWindow::Content {
   std::unique_ptr<EglContext> egl;

@@ -79,11 +79,18 @@ image::ScalarVolume warp(const image::ScalarVolume& image, const image::Displace
                          const image::Grid& target);
 
 /// Camera presets for 3-D views; directions from which the eye looks.
-enum class View3D { Anterior, Inferior, Oblique };
+enum class View3D { Anterior, Inferior, Oblique, Posterior, Left, Right, Superior };
+
+/// Any other camera: azimuth 0 is anterior and grows towards the patient's left, elevation 90 is superior, degrees.
+struct Camera3D {
+  double azimuth_deg = 0.0;
+  double elevation_deg = 0.0;
+};
 
 struct SceneOptions3D {
   Palette palette = Palette::RedBlue;
   View3D view = View3D::Oblique;
+  std::optional<Camera3D> camera{};  ///< instead of view
   int width = 1600;
   int height = 1200;
   double t = 1.0;  ///< fraction of the displacement shown, 0 = rest

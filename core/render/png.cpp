@@ -1,11 +1,6 @@
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGWriter.h>
-#include <vtkUnsignedCharArray.h>
+#include <png.h>
 
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <string>
 
@@ -15,32 +10,25 @@
 namespace glisson::render {
 namespace {
 
-/// CRC-32 of a PNG chunk (ISO 3309), over its type and data.
-std::uint32_t crc32(const std::uint8_t* bytes, std::size_t count) {
-  std::uint32_t crc = 0xffffffffU;
-  for (std::size_t n = 0; n < count; ++n) {
-    crc ^= bytes[n];
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1U) ? 0xedb88320U : 0U);
-  }
-  return ~crc;
+[[noreturn]] void refuse(png_structp, png_const_charp why) {
+  throw Error(std::string("the PNG encoder failed: ") + why);
+}
+void ignore(png_structp, png_const_charp) {}
+
+void append(png_structp png, png_bytep bytes, png_size_t count) {
+  auto& to = *static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
+  to.insert(to.end(), bytes, bytes + count);
 }
 
-void putBigEndian(std::uint8_t* to, std::uint32_t v) {
-  for (int n = 0; n < 4; ++n) to[n] = static_cast<std::uint8_t>(v >> (24 - 8 * n));
-}
-
-/// Length, type, pixels per metre in x and y, unit 1 (metre), CRC.
-std::array<std::uint8_t, 21> physicalSizeChunk(double dpi) {
-  const auto perMetre = static_cast<std::uint32_t>(std::lround(dpi / 0.0254));
-  std::array<std::uint8_t, 21> chunk{};
-  putBigEndian(chunk.data(), 9);
-  std::memcpy(chunk.data() + 4, "pHYs", 4);
-  putBigEndian(chunk.data() + 8, perMetre);
-  putBigEndian(chunk.data() + 12, perMetre);
-  chunk[16] = 1;
-  putBigEndian(chunk.data() + 17, crc32(chunk.data() + 4, 13));
-  return chunk;
-}
+/// libpng's two structures, given back whatever happens.
+struct Encoder {
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, refuse, ignore);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+  Encoder() = default;
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
+  ~Encoder() { png_destroy_write_struct(&png, &info); }
+};
 
 }  // namespace
 
@@ -51,31 +39,21 @@ std::vector<std::uint8_t> encodePng(const Picture& picture, double dpi) {
                       " pixels with " + std::to_string(picture.rgb.size()) + " bytes cannot be encoded as PNG");
   if (!(dpi > 0.0) || dpi > 1e5) throw BadArgument("a resolution of " + std::to_string(dpi) + " dpi is not usable");
 
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(picture.width, picture.height, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  auto* to = static_cast<std::uint8_t*>(image->GetScalarPointer());
+  std::vector<std::uint8_t> bytes;
+  const Encoder encoder;
+  if (!encoder.info) throw Error("the PNG encoder cannot be started");
+  png_set_write_fn(encoder.png, &bytes, append, nullptr);
+  png_set_IHDR(encoder.png, encoder.info, static_cast<png_uint_32>(picture.width),
+               static_cast<png_uint_32>(picture.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  const auto perMetre = static_cast<png_uint_32>(std::lround(dpi / 0.0254));
+  png_set_pHYs(encoder.png, encoder.info, perMetre, perMetre, PNG_RESOLUTION_METER);
+  png_write_info(encoder.png, encoder.info);
   const std::size_t row = 3 * static_cast<std::size_t>(picture.width);
-  const auto height = static_cast<std::size_t>(picture.height);
-  for (std::size_t y = 0; y < height; ++y)  // VTK counts rows from the bottom
-    std::memcpy(to + (height - 1 - y) * row, picture.rgb.data() + y * row, row);
-
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  writer->WriteToMemoryOn();
-  writer->Write();
-  const vtkUnsignedCharArray* result = writer->GetResult();
-  if (!result || result->GetNumberOfValues() < 33) throw Error("the PNG encoder gave no bytes");
-  const std::uint8_t* bytes = const_cast<vtkUnsignedCharArray*>(result)->GetPointer(0);
-  const auto count = static_cast<std::size_t>(result->GetNumberOfValues());
-
-  const std::size_t afterHeader = 8 + 4 + 4 + 13 + 4;  // signature and the IHDR chunk; VTK's writer has no resolution
-  const auto chunk = physicalSizeChunk(dpi);
-  std::vector<std::uint8_t> png(count + chunk.size());
-  std::memcpy(png.data(), bytes, afterHeader);
-  std::memcpy(png.data() + afterHeader, chunk.data(), chunk.size());
-  std::memcpy(png.data() + afterHeader + chunk.size(), bytes + afterHeader, count - afterHeader);
-  return png;
+  for (std::size_t y = 0; y < static_cast<std::size_t>(picture.height); ++y)
+    png_write_row(encoder.png, picture.rgb.data() + y * row);
+  png_write_end(encoder.png, encoder.info);
+  return bytes;
 }
 
 void writePng(const std::filesystem::path& file, const Picture& picture, double dpi) {

@@ -1,22 +1,22 @@
 #include "render/scene3d.h"
 
+#include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkLightKit.h>
 #include <vtkNew.h>
+#include <vtkProp.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "render/colour_map.h"
+#include "render/detail/scene3d_parts.h"
+#include "render/detail/viewpoint.h"
 #include "render/font.h"
 #include "render/sampling.h"
-#include "render/detail/scene3d_parts.h"
-
-#include <vtkActor.h>
-#include <vtkProp.h>
-#include <vtkSmartPointer.h>
 #include "render/slice_frame.h"
 
 namespace glisson::render {
@@ -41,25 +41,6 @@ Rgb mixed(Rgb a, Rgb b, double t) {
   return {one(a.r, b.r), one(a.g, b.g), one(a.b, b.b)};
 }
 
-/// Where the eye is, what is up, and which faces of the box lie behind the scene.
-struct Viewpoint {
-  Eigen::Vector3d fromEye;  ///< unit, into the picture
-  Eigen::Vector3d up;
-  std::vector<std::pair<int, bool>> walls;  ///< axis, at the upper end
-};
-
-Viewpoint viewpointOf(View3D view) {
-  switch (view) {
-    case View3D::Anterior:
-      return {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(), {{1, true}}};
-    case View3D::Inferior:
-      return {Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitY(), {{2, true}}};
-    case View3D::Oblique:
-      break;
-  }
-  return {Eigen::Vector3d(0.5, 0.85, -0.36).normalized(), Eigen::Vector3d::UnitZ(), {{1, true}, {2, false}}};
-}
-
 Eigen::AlignedBox3d roundedOut(const Eigen::AlignedBox3d& box, double step) {
   return {Eigen::Vector3d((box.min().array() / step).floor() * step),
           Eigen::Vector3d((box.max().array() / step).ceil() * step)};
@@ -75,7 +56,7 @@ class Stage {
  public:
   Stage(vtkRenderer* renderer, const SceneOptions3D& options, double pixelScale)
       : renderer_(renderer),
-        view_(viewpointOf(options.view)),
+        view_(viewpointOf(options)),
         width_(options.width * pixelScale),
         height_(options.height * pixelScale),
         // In a narrow picture the width decides, so that legend and caption leave room for the scene.
@@ -84,73 +65,43 @@ class Stage {
 
   void add(const vtkSmartPointer<vtkProp>& prop) { renderer_->AddViewProp(prop); }
 
-  /// Grid walls behind and below, centimetre labels along their edges, letters of the patient's sides, a 5 cm bar.
+  /// Grid walls behind and below, centimetre labels and letters of the patient's sides along their edges, a 5 cm bar.
   void drawGrid(const Eigen::AlignedBox3d& box) {
     for (const auto& [axis, upper] : view_.walls) {
       const double at = upper ? box.max()[axis] : box.min()[axis];
       add(gridLines(box, axis, at, grid_mm, false, line_px_));
       add(gridLines(box, axis, at, grid_mm, true, 1.6 * line_px_));
     }
-    const auto [backAxis, backUpper] = view_.walls.front();
-    Eigen::Vector3d corner = box.min();
-    corner[backAxis] = backUpper ? box.max()[backAxis] : box.min()[backAxis];
     const double off = 0.035 * box.diagonal().norm();
-    const int vertical = backAxis == 2 ? 1 : 2;  // screen-vertical axis of the back wall
-    // Bottom of the back wall on the screen: z low, or y high (posterior) seen from below.
-    const double low = vertical == 2 ? box.min()[vertical] : box.max()[vertical];
-    const double outward = vertical == 2 ? -1.0 : 1.0;
-    const bool floor = view_.walls.size() > 1;
-    Eigen::Vector3d edge = corner;
-    edge[vertical] = low + outward * off;
-    if (floor)
-      edge = Eigen::Vector3d(0.0, box.min().y() - 0.8 * off, box.min().z() - 0.5 * off);  // front edge of the floor
-    for (const double x : gridLines_mm(box.min().x(), box.max().x(), 20.0)) {
-      edge.x() = x;
-      add(label3D(edge, cm(x), colours::gridGreen, 0.8 * font_px_, false));
-    }
-    Eigen::Vector3d side = corner;
-    side.x() = box.min().x() - 1.1 * off;
-    for (const double v : gridLines_mm(box.min()[vertical], box.max()[vertical], 20.0)) {
-      side[vertical] = v;
-      add(label3D(side, cm(v), colours::gridGreen, 0.8 * font_px_, false));
-    }
-    if (floor)
-      for (const double y : gridLines_mm(box.min().y(), box.max().y() - 20.0, 20.0))
-        add(label3D({box.max().x() + 1.1 * off, y, box.min().z()}, cm(y), colours::gridGreen, 0.8 * font_px_, false));
-
-    // Letters: the sides of the patient at the middle of each wall's edges.
-    const Eigen::Vector3d centre = box.center();
-    const auto letter = [&](Eigen::Vector3d at, const char* text) {
-      add(label3D(at, text, colours::light, 1.5 * font_px_, true));
-    };
-    Eigen::Vector3d at = corner;
-    at[vertical] = centre[vertical];
-    at.x() = box.min().x() - 2.3 * off;
-    letter(at, "R");
-    at.x() = box.max().x() + 1.2 * off;
-    if (floor)
-      letter({box.max().x() + 2.4 * off, centre.y(), box.min().z()}, "L");
-    else
-      letter(at, "L");
-    at.x() = centre.x();
-    at[vertical] = vertical == 2 ? box.max().z() + 1.0 * off : box.min().y() - 1.0 * off;
-    letter(at, vertical == 2 ? "S" : "A");
-    if (floor) {
-      letter({centre.x(), box.min().y() - 2.2 * off, box.min().z() - 1.0 * off}, "A");
-    } else {
-      at[vertical] = low + outward * 2.1 * off;
-      letter(at, vertical == 2 ? "I" : "P");
+    constexpr const char* sides[3][2] = {{"R", "L"}, {"A", "P"}, {"I", "S"}};
+    for (const LabelledEdge& edge : labelledEdges(view_, box)) {
+      Eigen::Vector3d at = edge.low + off * edge.outward;
+      for (const double v : gridLines_mm(box.min()[edge.axis], box.max()[edge.axis], 20.0)) {
+        at[edge.axis] = v + off * edge.outward[edge.axis];
+        add(label3D(at, cm(v), colours::gridGreen, 0.8 * font_px_, false));
+      }
+      for (const int end : {0, 1}) {
+        at = edge.low;
+        at[edge.axis] = end ? box.max()[edge.axis] + 1.4 * off : box.min()[edge.axis] - 1.4 * off;
+        add(label3D(at, sides[edge.axis][end], colours::light, 1.5 * font_px_, true));
+      }
     }
 
-    // The bar lies in the back wall, so it has the grid's scale in every camera.
-    Eigen::Vector3d b = corner;
-    b[vertical] = vertical == 2 ? box.max()[vertical] - 0.6 * off : box.min()[vertical] + 0.6 * off;
-    b.x() = std::ceil(box.max().x() / grid_mm) * grid_mm - 5.0;
-    Eigen::Vector3d a = b;
-    a.x() -= 50.0;
-    Eigen::Vector3d middle = 0.5 * (a + b);
-    middle[vertical] += (vertical == 2 ? -1.0 : 1.0) * 0.8 * off;
-    add(segments({{a, b}}, colours::light, 5.0 * line_px_));
+    // The bar lies in the back wall, along its horizontal, so it has the grid's scale in every camera.
+    const auto [back, backUpper] = view_.walls.front();
+    const int b = (back + 1) % 3, c = (back + 2) % 3;
+    const bool bAcross = std::abs(view_.right[b]) >= std::abs(view_.right[c]);
+    const int across = bAcross ? b : c, vertical = bAcross ? c : b;
+    const bool topIsUpper = view_.up[vertical] > 0, rightIsUpper = view_.right[across] > 0;
+    Eigen::Vector3d end = box.min();
+    end[back] = backUpper ? box.max()[back] : box.min()[back];
+    end[vertical] = topIsUpper ? box.max()[vertical] - 0.6 * off : box.min()[vertical] + 0.6 * off;
+    end[across] = rightIsUpper ? box.max()[across] - 5.0 : box.min()[across] + 5.0;
+    Eigen::Vector3d start = end;
+    start[across] += rightIsUpper ? -50.0 : 50.0;
+    Eigen::Vector3d middle = 0.5 * (start + end);
+    middle[vertical] += (topIsUpper ? -1.0 : 1.0) * 0.8 * off;
+    add(segments({{start, end}}, colours::light, 5.0 * line_px_));
     add(label3D(middle, "5 cm", colours::light, font_px_, false));
   }
 
@@ -196,7 +147,7 @@ class Stage {
   /// Parallel projection: a centimetre of the grid is a centimetre everywhere in its plane.
   void aim(const Eigen::AlignedBox3d& box, bool decorated) {
     vtkCamera* camera = renderer_->GetActiveCamera();
-    const Eigen::Vector3d right = view_.fromEye.cross(view_.up).normalized(), up = right.cross(view_.fromEye);
+    const Eigen::Vector3d &right = view_.right, &up = view_.up;
     double halfWidth = 0.0, halfHeight = 0.0;
     const Eigen::Vector3d centre = box.center();
     for (int n = 0; n < 8; ++n) {
