@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "anatomy/surface_field.h"
 #include "anatomy/thinning.h"
 #include "image/distance.h"
 #include "image/morphology.h"
@@ -146,11 +147,49 @@ Eigen::Vector3d centred(const Eigen::Vector3d& p_lps, const Eigen::Vector3d& alo
   return p_lps + shift;
 }
 
+/// Within a radius of a blunt tip the skeleton bends into one of its corners: those points are put onto the straight
+/// line of the five points before them.
+void straightenEnds(const Graph& g, const image::ScalarVolume& depth_mm, Centreline& line) {
+  constexpr std::size_t before = 5, looked = 24;
+  std::vector<Eigen::Vector3d> moved = line.points_lps_mm;
+  for (std::size_t end = 0; end < g.next.size(); ++end) {
+    if (g.next[end].size() != 1) continue;
+    std::vector<std::size_t> path{end, static_cast<std::size_t>(g.next[end][0])};
+    while (path.size() < looked && g.next[path.back()].size() == 2) {
+      const auto a = static_cast<std::size_t>(g.next[path.back()][0]);
+      const auto b = static_cast<std::size_t>(g.next[path.back()][1]);
+      path.push_back(a == path[path.size() - 2] ? b : a);
+    }
+    double deepest_mm = 0.0;
+    for (const std::size_t v : path) deepest_mm = std::max(deepest_mm, static_cast<double>(depth_mm.at(g.voxels[v])));
+    std::size_t bent = 0;
+    for (double way_mm = 0.0; way_mm < deepest_mm && bent + 1 < path.size(); ++bent)
+      way_mm += (line.points_lps_mm[path[bent + 1]] - line.points_lps_mm[path[bent]]).norm();
+    if (bent + before >= path.size()) continue;
+    const Eigen::Vector3d& from = line.points_lps_mm[path[bent]];
+    const Eigen::Vector3d along = (from - line.points_lps_mm[path[bent + before]]).normalized();
+    for (std::size_t i = 0; i < bent; ++i)
+      moved[path[i]] = from + (line.points_lps_mm[path[i]] - from).dot(along) * along;
+  }
+  line.points_lps_mm = std::move(moved);
+}
+
+/// The same body on an isotropic lattice, interpolated by shape (see surface.h): thinning counts voxels, not mm.
+image::Mask isotropic(const image::Mask& mask) {
+  const SurfaceField field = surfaceField(mask, mask.grid.spacing_mm.minCoeff());
+  image::Mask result(field.values_mm.grid);
+  for (std::size_t i = 0; i < result.values.size(); ++i)
+    result.values[i] = static_cast<double>(field.values_mm.values[i]) > field.level_mm ? 1 : 0;
+  return result;
+}
+
 }  // namespace
 
-Centreline centrelineOf(const image::Mask& mask) {
+Centreline centrelineOf(const image::Mask& original) {
   Centreline result;
-  if (image::count(mask) == 0) return result;
+  if (image::count(original) == 0) return result;
+  const bool even = original.grid.spacing_mm.maxCoeff() <= 1.25 * original.grid.spacing_mm.minCoeff();
+  const image::Mask mask = even ? original : isotropic(original);
   const image::ScalarVolume depth_mm = image::distanceToBoundary_mm(mask);
   image::Mask line = skeleton(mask);
   while (prune(line, depth_mm)) {
@@ -173,6 +212,7 @@ Centreline centrelineOf(const image::Mask& mask) {
     }
     result.points_lps_mm = std::move(moved);
   }
+  straightenEnds(g, depth_mm, result);
   image::ScalarVolume inside(mask.grid);
   for (std::size_t i = 0; i < inside.values.size(); ++i) inside.values[i] = mask.values[i] != 0 ? 1.0F : 0.0F;
   for (std::size_t v = 0; v < result.points_lps_mm.size(); ++v) {

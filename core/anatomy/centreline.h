@@ -17,7 +17,8 @@ struct Centreline {
 
 /// Skeleton of the mask with side branches that do not leave the tube (shorter than 1.5 radii at their root) cut off,
 /// ends trimmed where they bend into a corner of the tip, moved to the deepest place nearby across the line, and
-/// smoothed along the line. An empty mask gives no points.
+/// smoothed along the line; within a radius of an end it follows the straight line before. Grids whose spacings
+/// differ by more than a quarter are first made isotropic by shape (surface.h). An empty mask gives no points.
 Centreline centrelineOf(const image::Mask& mask);
 
 }  // namespace glisson::anatomy

@@ -5,10 +5,15 @@
 
 namespace glisson::anatomy {
 
+/// Isosurface: marching cubes on a lattice. Delaunay: refinement of the same smooth body, fewer and rounder triangles
+/// (no angle below 28 degrees).
+enum class SurfaceMethod { Isosurface, Delaunay };
+
 struct SurfaceOptions {
-  double resolution_mm =
-      0.0;  ///< edge of the triangles, about; 0: the in-plane spacing, or 1/128 of the extent where that is more
-  int smoothing = 20;  ///< iterations of the windowed sinc filter
+  double resolution_mm = 0.0;  ///< edge of the triangles, about; 0: the in-plane spacing, or 1/128 of the extent where
+                               ///< that is more (isosurface); 1/16 of the extent (Delaunay)
+  int smoothing = 20;          ///< iterations of the windowed sinc filter (isosurface)
+  SurfaceMethod method = SurfaceMethod::Isosurface;
 };
 
 /// Smooth closed surface of a mask, outward oriented, that encloses the volume of its voxels (within 0.1 %).

@@ -1,5 +1,6 @@
 #include "anatomy/triangle_mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -33,6 +34,24 @@ double volume_mm3(const TriangleMesh& mesh) {
               6.0;
   }
   return volume;
+}
+
+void moveToVolume(TriangleMesh& mesh, double wanted_mm3) {
+  for (int round = 0; round < 3; ++round) {
+    Eigen::Matrix3Xd normal = Eigen::Matrix3Xd::Zero(3, mesh.vertices_lps_mm.cols());
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+      const Eigen::Vector3i v = mesh.triangles.col(t);
+      const Eigen::Vector3d a = mesh.vertices_lps_mm.col(v[0]), b = mesh.vertices_lps_mm.col(v[1]),
+                            c = mesh.vertices_lps_mm.col(v[2]);
+      const Eigen::Vector3d n = (b - a).cross(c - a);
+      for (int i = 0; i < 3; ++i) normal.col(v[i]) += n;
+    }
+    const double offset_mm = (wanted_mm3 - volume_mm3(mesh)) / area_mm2(mesh);
+    for (Eigen::Index v = 0; v < normal.cols(); ++v) {
+      const double length = normal.col(v).norm();
+      if (length > 0.0) mesh.vertices_lps_mm.col(v) += offset_mm / length * normal.col(v);
+    }
+  }
 }
 
 bool isClosed(const TriangleMesh& mesh) {

@@ -184,12 +184,14 @@ VesselModel findVessels(const image::ScalarVolume& mri, const image::Mask& liver
   }
   progress.report(0.8, "vessel centrelines");
   Centreline centreline = centrelineOf(model.mask);
+  model.tree = treeOf(centreline);
   model.centreline_lps_mm = std::move(centreline.points_lps_mm);
   model.radius_mm = std::move(centreline.radius_mm);
   model.edges = std::move(centreline.edges);
   progress.report(0.9, "vessel surface");
   model.surface = liverSurface(model.mask, {w.image.grid.spacing_mm.x(), 10});
   model.note = std::to_string(image::components(model.mask).voxels.size()) + " connected vessels, " +
+               std::to_string(model.tree.branches.size()) + " branches, " +
                std::to_string(model.centreline_lps_mm.size()) + " landmarks";
   progress.report(1.0, "vessels");
   return model;

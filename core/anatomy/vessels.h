@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "anatomy/triangle_mesh.h"
+#include "anatomy/vessel_tree.h"
 #include "base/progress.h"
 #include "image/volume.h"
 
@@ -28,6 +29,7 @@ struct VesselModel {
   std::vector<Eigen::Vector3d> centreline_lps_mm;  ///< landmarks, about one per working voxel along the vessels
   std::vector<double> radius_mm;                   ///< per landmark
   std::vector<std::array<int, 2>> edges;           ///< neighbouring landmarks
+  VesselTree tree;                                 ///< the same landmarks as branches, see vessel_tree.h
   double contrast = 0.0;                           ///< vessel minus liver, image units
   std::string note;                                ///< what was found or why nothing was, in words
 };

@@ -92,19 +92,25 @@ TEST(Centreline, TubeHasItsRadiusOnObliqueLattices) {
       const image::Mask m = maskOf(l.grid, [&](const Eigen::Vector3d& p) { return depth({tube}, p) > 0; });
       const Centreline line = centrelineOf(m);
       ASSERT_GT(line.points_lps_mm.size(), 30u);
-      double sum = 0.0, off = 0.0, worst = 0.0;
+      double sum = 0.0, off = 0.0, worst = 0.0, beyond = 0.0;
+      const Eigen::Vector3d along = half.normalized();
       for (std::size_t i = 0; i < line.points_lps_mm.size(); ++i) {
         sum += line.radius_mm[i];
-        const double d = distanceToSegment(line.points_lps_mm[i], tube.a, tube.b);
-        off += d;
-        worst = std::max(worst, d);
+        const Eigen::Vector3d d = line.points_lps_mm[i] - centre;
+        beyond = std::max(beyond, std::abs(d.dot(along)) - half.norm());
+        off += (d - d.dot(along) * along).norm();
+        worst = std::max(worst, (d - d.dot(along) * along).norm());
       }
       const auto n = static_cast<double>(line.points_lps_mm.size());
       std::printf("  tube r %.0f, %s: radius %.2f mm, off the axis %.2f mean %.2f max mm\n", radius, l.name.c_str(),
                   sum / n, off / n, worst);
-      EXPECT_NEAR(sum / n, radius, 0.6) << l.name;  // half a voxel
-      EXPECT_LT(off / n, 0.6) << l.name;
-      EXPECT_LT(worst, 0.5 * radius) << l.name;  // tips are trimmed where the depth falls below 0.6 of the tube
+      // The edge of a mask is known to half a voxel at each of many voxels round the tube, whose errors cancel: a tenth
+      // of a voxel is left in the radius, a quarter in the place across the axis, and no point is a voxel off. The line
+      // may reach into the round tip as far as the depth there is 0.6 of the tube's, and a voxel more.
+      EXPECT_NEAR(sum / n, radius, 0.12) << l.name;
+      EXPECT_LT(off / n, 0.3) << l.name;
+      EXPECT_LT(worst, 1.2) << l.name;
+      EXPECT_LT(beyond, 0.4 * radius + 1.2) << l.name;
     }
 }
 
@@ -147,7 +153,9 @@ TEST(Vessels, LetterYIsFoundOnEveryLattice) {
           l.name.c_str(), spacing.z(), 100 * share, voxel_mm, 100 * strayShare, radiusError, v.note.c_str());
       EXPECT_GE(share, 0.9) << l.name;
       EXPECT_LE(strayShare, 0.05) << l.name;
-      EXPECT_LT(radiusError, 1.5) << l.name;
+      EXPECT_LT(radiusError, 0.5) << l.name;  // a third of a voxel
+      EXPECT_EQ(v.tree.roots, 1) << l.name;
+      EXPECT_EQ(v.tree.branches.size(), 3u) << l.name;
       EXPECT_NEAR(v.contrast, 150.0, 40.0) << l.name;
       EXPECT_TRUE(isClosed(v.surface)) << l.name;
     }

@@ -122,10 +122,45 @@ TEST(Distance, BallHasItsDepthAndThreadsDoNotMatter) {
   EXPECT_NEAR(d.at(30, 30, 30), 20, 0.87);  // half a voxel diagonal
   EXPECT_NEAR(d.at(30, 30, 40), 10, 0.87);
   EXPECT_NEAR(d.at(30, 30, 57), -7, 0.87);
-  // A ball eroded by 5 mm is a ball of 15, dilated by 5 mm one of 25, to half a voxel diagonal.
-  const double unit = 4.0 / 3.0 * M_PI;
-  EXPECT_NEAR(std::cbrt(static_cast<double>(count(erode(m, 5))) / unit), 15, 0.87);
-  EXPECT_NEAR(std::cbrt(static_cast<double>(count(dilate(m, 5))) / unit), 25, 0.87);
+}
+
+// The voxel solid of a ball of radius R lies between the balls of R − d and R + d, d half a voxel diagonal; erosion and
+// dilation by r keep that order. So no voxel centre nearer than R − d − r is lost, none beyond R + d − r is left, and
+// for dilation the same with +r. On any grid.
+TEST(Morphology, ErodedAndDilatedBallsLieBetweenBalls) {
+  for (const Eigen::Vector3d& spacing : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, 2, 3)}) {
+    const Grid g = oblique((Eigen::Vector3d(60, 60, 60).cwiseQuotient(spacing)).array().ceil().cast<int>(), spacing);
+    const Eigen::Vector3d centre = g.indexToLps(0.5 * (g.size.cast<double>().array() - 1.2).matrix());
+    const double R = 20, r = 5, d = 0.5 * spacing.norm();
+    Mask m(g);
+    const auto away = [&](int i, int j, int k) { return (g.indexToLps(Eigen::Vector3d(i, j, k)) - centre).norm(); };
+    for (int k = 0; k < g.size.z(); ++k)
+      for (int j = 0; j < g.size.y(); ++j)
+        for (int i = 0; i < g.size.x(); ++i) m.at(i, j, k) = away(i, j, k) < R ? 1 : 0;
+    const Mask eroded = erode(m, r), dilated = dilate(m, r);
+    std::size_t sure = 0, open = 0;
+    for (int k = 0; k < g.size.z(); ++k)
+      for (int j = 0; j < g.size.y(); ++j)
+        for (int i = 0; i < g.size.x(); ++i) {
+          const double a = away(i, j, k);
+          if (a < R - d - r) {
+            EXPECT_EQ(eroded.at(i, j, k), 1);
+            ++sure;
+          }
+          if (a > R + d - r) {
+            EXPECT_EQ(eroded.at(i, j, k), 0);
+          }
+          if (a < R - d + r) {
+            EXPECT_EQ(dilated.at(i, j, k), 1);
+          }
+          if (a > R + d + r) {
+            EXPECT_EQ(dilated.at(i, j, k), 0);
+            ++open;
+          }
+        }
+    EXPECT_GT(sure, 500u);
+    EXPECT_GT(open, 500u);
+  }
 }
 
 TEST(Morphology, ErosionAndDilationAreDual) {
