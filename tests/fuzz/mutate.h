@@ -14,7 +14,7 @@ inline std::string mutated(std::string file, Random& random) {
   // Most of what a parser trusts stands in the first kilobytes.
   const auto place = [&] {
     const std::uint64_t near = std::min<std::uint64_t>(file.size(), 4096);
-    return static_cast<std::size_t>(random.below(random.uniform() < 0.7 ? near : file.size()));
+    return static_cast<std::size_t>(random.below(random.uniform() < 0.5 ? near : file.size()));
   };
   const auto put = [&](std::size_t at, std::uint64_t value, std::size_t bytes) {
     for (std::size_t n = 0; n < bytes && at + n < file.size(); ++n)
@@ -23,7 +23,7 @@ inline std::string mutated(std::string file, Random& random) {
   static constexpr std::uint64_t extremes[] = {0,          1,          0x7F,       0x80,       0xFF,
                                                0xFFFE,     0xFFFF,     0x7FFFFFFF, 0x80000000, 0xFFFFFFFE,
                                                0xFFFFFFFF, 0xE000FFFE, 0x00107FE0, 0x5153};
-  const std::uint64_t changes = 1 + random.below(8);
+  const std::uint64_t changes = 1 + random.below(4);
   for (std::uint64_t c = 0; c < changes; ++c) {
     switch (random.below(7)) {
       case 0:

@@ -27,18 +27,19 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::uintmax_t largest = 1U << 20;
 
-std::vector<fs::path> originals(int folders, char** names) {
-  std::vector<fs::path> files;
+/// The originals, by the folder that they lie in: each folder is as likely as the others, however full.
+std::map<fs::path, std::vector<fs::path>> originals(int folders, char** names) {
+  std::map<fs::path, std::vector<fs::path>> files;
   for (int n = 0; n < folders; ++n) {
     std::error_code failed;
     for (const auto& e : fs::recursive_directory_iterator(names[n], failed)) {
       const std::string kind = e.path().extension().string();
       const bool image = kind == ".dcm" || kind == ".ima" || kind == ".zip" || kind.empty() ||
                          std::isdigit(static_cast<unsigned char>(kind.back())) != 0;
-      if (e.is_regular_file() && e.file_size() <= largest && image) files.push_back(e.path());
+      if (e.is_regular_file() && e.file_size() <= largest && image) files[e.path().parent_path()].push_back(e.path());
     }
   }
-  std::sort(files.begin(), files.end());
+  for (auto& [folder, list] : files) std::sort(list.begin(), list.end());
   return files;
 }
 
@@ -78,7 +79,7 @@ int main(int argc, char** argv) {
   }
   const long count = std::atol(argv[1]);
   const auto seed = static_cast<std::uint64_t>(std::atoll(argv[2]));
-  const std::vector<fs::path> files = originals(argc - 3, argv + 3);
+  const auto files = originals(argc - 3, argv + 3);
   if (files.empty()) {
     std::cout << "skipped: there are no files to mutate beside this checkout\n";
     return 77;
@@ -92,7 +93,8 @@ int main(int argc, char** argv) {
   long bad = 0;
   for (long n = 0; n < count; ++n) {
     glisson::Random random(seed * 1'000'003 + static_cast<std::uint64_t>(n));
-    const fs::path& original = files[random.below(files.size())];
+    const auto& list = std::next(files.begin(), static_cast<std::ptrdiff_t>(random.below(files.size())))->second;
+    const fs::path& original = list[random.below(list.size())];
     std::ofstream(work, std::ios::binary) << glisson::test::mutated(contentOf(original), random);
     const auto begin = std::chrono::steady_clock::now();
     const std::string what = outcomeOf(work);
@@ -114,8 +116,8 @@ int main(int argc, char** argv) {
   std::sort(common.rbegin(), common.rend());
   for (const auto& [times, what] : common)
     if (what.starts_with("CHILD") || times * 200 > count) std::cout << times << "  " << what << "\n";
-  std::cout << count << " mutated files of " << files.size() << " originals: slowest " << slowest_s
-            << " s, peak memory " << peak_MiB() << " MiB\n";
+  std::cout << count << " mutated files of " << files.size() << " folders: slowest " << slowest_s << " s, peak memory "
+            << peak_MiB() << " MiB\n";
 #ifndef __SANITIZE_ADDRESS__
   if (peak_MiB() > 256.0 + 3.0 * static_cast<double>(largest) / 1048576.0) {
     std::cout << "more memory than 256 MiB and three times the largest file\n";
