@@ -1,6 +1,7 @@
 #include "study/tradeoff.h"
 
 #include "pipeline/scene.h"
+#include "report/html.h"
 #include "study_json.h"
 
 namespace glisson::cli {
@@ -24,6 +25,11 @@ int tradeoff(const std::filesystem::path& file, const study::TradeoffOptions& op
   if (!context.output.empty()) {
     render::XyChart chart = study::chart(s.rows, s.reference, "Error against run time",
                                          "Error: largest distance from the " + s.summary() + ".");
+    for (const study::Row& r : s.rows)
+      if (r.online)
+        chart.caption += " Condensed (not drawn): " + report::number(1e3 * r.solve_s, 2) +
+                         " ms online for every node, " + report::number(r.build_s, 2) + " s once before, " +
+                         report::number(r.max_error_mm, 3) + " mm.";
     chart.lines.push_back({.value = 1.64, .label = "1.64 mm voxel", .colour = {200, 0, 160}});
     for (const auto& written : study::write(context.output, "tradeoff", s.rows, chart)) {
       j["files"].push_back(written.string());
@@ -42,6 +48,8 @@ void addTradeoff(CLI::App& app, Context& context) {
   auto options = std::make_shared<study::TradeoffOptions>();
   verb->add_option("scene", *scene, "scene.json")->required();
   verb->add_flag("--quick", options->quick, "fewer variants");
+  verb->add_option("--budget", options->budget_s, "seconds after which no further variant is begun")
+      ->check(CLI::Range(0.0, 86400.0));
   verb->add_option("--reference-cells", options->referenceCells, "largest number of cells of the reference")
       ->check(CLI::Range(1000, 4000000));
   verb->callback([&context, scene, options] {

@@ -24,6 +24,15 @@ int validate(const study::BeamOptions& options, const Context& context) {
   j["references"][study::eulerBernoulli] =
       reference(s.eulerBernoulliTip_mm, s.gapEulerBernoulliTip_mm, "3-D clamped - Euler-Bernoulli, tip");
   j["references"][study::eulerBernoulli]["gap_axis_mm"] = s.gapEulerBernoulliAxis_mm;
+  j["goals"] = Json::array();
+  for (const study::BeamGoal& g : s.goals)
+    j["goals"].push_back({{"what", g.what},
+                          {"poisson", g.poisson},
+                          {"quantity", g.quantity},
+                          {"value", g.value},
+                          {"limit", g.limit},
+                          {"met", g.met()},
+                          {"beside", g.beside}});
   j["rows"] = toJson(s.rows);
   std::string text = s.summary() + study::table(s.rows);
   j["files"] = Json::array();

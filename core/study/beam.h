@@ -6,6 +6,8 @@
 #include "base/progress.h"
 #include "mechanics/beam.h"
 #include "mechanics/problem.h"
+#include "mechanics/tet_solve.h"
+#include "study/beam_goals.h"
 #include "study/rows.h"
 
 namespace glisson::study {
@@ -17,17 +19,15 @@ enum class Root {
                ///< no net force hold the rigid motions: what beam theory assumes
 };
 
-struct BeamOptions {
-  double poisson = 0.45;
-  double tip_mm = 1.0;  ///< Euler-Bernoulli tip deflection, which sets the load
-  bool quick = false;   ///< fewer methods and resolutions, coarser references
-};
-
 /// The validation cantilever, 50 × 10 × 10 mm, E 12 kPa, uniform body force along −z.
 mechanics::Cantilever validationBeam(double poisson);
 
 /// Its voxel model. cells: along x, y, z. Throws BadInput where poisson or tip_mm is not usable.
 mechanics::Problem beamProblem(const BeamOptions& options, const Eigen::Vector3i& cells, Root root);
+
+/// The same beam on tetrahedra, six per cell of problem = beamProblem(options, cells, root), with consistent loads.
+mechanics::TetProblem beamOnTetrahedra(const BeamOptions& options, const mechanics::Problem& problem,
+                                       mechanics::TetOrder order, mechanics::TetPattern pattern, Root root);
 
 /// Downward deflection (mm) of the central axis relative to its root, at stations i L / 30, i = 0 ... 30.
 std::vector<double> axisDeflection_mm(const mechanics::VoxelMesh& mesh, const mechanics::NodalField& u_m);
@@ -59,12 +59,13 @@ struct BeamStudy {
   double gapEulerBernoulliAxis_mm = 0.0;  ///< largest along the axis
   double gapTimoshenkoTip_mm = 0.0;       ///< 3-D with the Poisson-free root − Timoshenko at the tip
   double allowed_mm = 0.0164;             ///< 1 % of a 1.64 mm voxel
+  std::vector<BeamGoal> goals;            ///< at 1 mm tip; Poisson's ratio .3, .45 and .49, quick: that of the options
   std::string summary() const;            ///< the references and their gaps, in lines
   std::string caption() const;            ///< the same in a few sentences, for the chart
 };
 
 /// Runs the study: voxel elements and mesh-free frames, the published method (Voronoi kernel, conjugate gradients
-/// stopped at 200) among them. Default: under a minute on two cores. Throws BadInput, Cancelled.
+/// stopped at 200) and tetrahedra among them. Default: under a minute on two cores. Throws BadInput, Cancelled.
 BeamStudy studyBeam(const BeamOptions& options, const Progress& progress = {});
 
 }  // namespace glisson::study

@@ -1,13 +1,8 @@
 #include "study/beam_methods.h"
 
-#include <algorithm>
-#include <memory>
 #include <sstream>
 
-#include "mechanics/dynamics.h"
-#include "mechanics/meshfree.h"
-#include "mechanics/static_solve.h"
-#include "study/timing.h"
+#include "study/methods.h"
 
 namespace glisson::study {
 namespace {
@@ -19,45 +14,41 @@ std::string cellsText(const Eigen::Vector3i& n) {
   return std::to_string(n.x()) + "x" + std::to_string(n.y()) + "x" + std::to_string(n.z());
 }
 
-std::string ending(const mechanics::SolveReport& r) {
-  if (r.converged()) return {};
-  std::ostringstream t;
-  t.precision(2);
-  t << mechanics::describe(r.status) << " after " << r.iterations << " iterations, residual " << r.residual;
-  return t.str();
+BeamAnswer asAnswer(const Measured& m, const mechanics::VoxelMesh& mesh, const std::string& resolution) {
+  BeamAnswer a;
+  a.resolution = resolution;
+  a.dofs = m.dofs;
+  a.build_s = m.build_s;
+  a.solve_s = m.solve_s;
+  a.step_ms = m.step_ms;
+  a.axis_mm = axisDeflection_mm(mesh, m.u_m);
+  a.converged = m.converged;
+  a.note = m.note;
+  return a;
+}
+
+std::string withSize(const mechanics::Problem& p) {
+  std::ostringstream size;
+  size.precision(3);
+  size << cellsText(p.body.cells) << " (" << 1e3 * p.body.h_m.z() << " mm)";
+  return size.str();
 }
 
 BeamAnswer voxels(const BeamOptions& options, HexElement element, const Eigen::Vector3i& cells, Root root,
                   const Progress& progress) {
   const mechanics::Problem p = beamProblem(options, cells, root);
-  BeamAnswer a;
-  std::ostringstream size;
-  size.precision(3);
-  size << cellsText(cells) << " (" << 1e3 * p.body.h_m.z() << " mm)";
-  a.resolution = size.str();
   mechanics::SolverOptions solver;
   solver.element = element;
-  const Stopwatch build;
-  mechanics::StaticSolver s(p.body, p.supports, solver, progress);
-  a.build_s = build.seconds();
-  // Hierarchy or factor are made in the first solve: a second one shows what the solve alone takes.
-  const Stopwatch both;
-  const mechanics::Solution answer = s.solve(p.f_N, progress);
-  const double first_s = both.seconds();
-  const Stopwatch again;
-  s.solve(p.f_N, progress);
-  a.solve_s = std::min(again.seconds(), first_s);
-  a.build_s += first_s - a.solve_s;
-  a.dofs = s.voxels().dofs();
-  a.axis_mm = axisDeflection_mm(s.mesh(), answer.u_m);
-  a.converged = answer.report.converged();
-  a.note = ending(answer.report);
-  const auto operation = std::make_shared<const mechanics::VoxelOperator>(p.body, element, p.supports);
-  mechanics::NodalField load = p.f_N;
-  operation->project(load);
-  mechanics::VoxelSystem system(operation);
-  a.step_ms = stepTime_ms(system, load.reshaped(), 5, progress);
-  return a;
+  return asAnswer(quickest([&] { return measureVoxels(p, solver, 5, progress); }), mechanics::VoxelMesh(p.body),
+                  withSize(p));
+}
+
+BeamAnswer tets(const BeamOptions& options, mechanics::TetOrder order, mechanics::TetPattern pattern,
+                const Eigen::Vector3i& cells, Root root, const Progress& progress) {
+  const mechanics::Problem p = beamProblem(options, cells, root);
+  const mechanics::TetProblem problem = beamOnTetrahedra(options, p, order, pattern, root);
+  return asAnswer(quickest([&] { return measureTets(p, problem, progress); }), mechanics::VoxelMesh(p.body),
+                  withSize(p));
 }
 
 struct Frames {
@@ -74,27 +65,14 @@ BeamAnswer frames(const BeamOptions& options, const Frames& f, int base, Root ro
   o.kernel = f.kernel;
   o.order = f.order;
   o.frames = f.count;
-  BeamAnswer a;
-  const Stopwatch build;
-  const mechanics::MeshfreeModel model(p, o, HexElement::Incompatible, progress);
-  a.build_s = build.seconds();
   mechanics::SolverOptions solver;
   if (f.published) {
     solver.kind = mechanics::SolverKind::Cg;
     solver.preconditioner = mechanics::Preconditioner::None;
     solver.iterations = 200;
   }
-  const Stopwatch watch;
-  const mechanics::Solution answer = model.solveStatic(solver, progress);
-  a.solve_s = watch.seconds();
-  a.dofs = model.dofs();
-  a.resolution = std::to_string(model.frames()) + " frames on " + cellsText(cells);
-  a.axis_mm = axisDeflection_mm(model.voxels().mesh(), answer.u_m);
-  a.converged = answer.report.converged();
-  a.note = ending(answer.report);
-  mechanics::MatrixSystem system(model.K(), model.M(), solver, model.borders());
-  a.step_ms = stepTime_ms(system, model.load(p.f_N), f.published ? 3 : 10, progress);
-  return a;
+  const Measured m = measureFrames(p, o, solver, f.published ? 3 : 10, progress);
+  return asAnswer(m, mechanics::VoxelMesh(p.body), std::to_string(m.frames) + " frames on " + cellsText(cells));
 }
 
 }  // namespace
@@ -109,7 +87,8 @@ std::vector<BeamMethod> beamMethods(const BeamOptions& options) {
                        }});
   };
   const auto addFrames = [&](const std::string& name, const Frames& f, int base) {
-    methods.push_back({name, 0.02 * f.count * f.order * f.order, [=](Root root, const Progress& progress) {
+    methods.push_back({name, (f.kernel == Kernel::Mls ? 0.005 : 0.02) * f.count * f.order * f.order,
+                       [=](Root root, const Progress& progress) {
                          BeamAnswer a = frames(options, f, base, root, progress);
                          a.method = name;
                          return a;
@@ -121,13 +100,32 @@ std::vector<BeamMethod> beamMethods(const BeamOptions& options) {
   for (const Eigen::Vector3i& cells : grids) addVoxels("H8-Bbar", HexElement::BBar, cells);
   for (const Eigen::Vector3i& cells : grids) addVoxels("H8-incompatible", HexElement::Incompatible, cells);
 
+  const auto addTets = [&](const std::string& name, mechanics::TetOrder order, mechanics::TetPattern pattern,
+                           const Eigen::Vector3i& cells) {
+    const double weight = (order == mechanics::TetOrder::Quadratic ? 1e-3 : 2e-4) * cells.prod();
+    methods.push_back({name, weight, [=](Root root, const Progress& progress) {
+                         BeamAnswer a = tets(options, order, pattern, cells, root, progress);
+                         a.method = name;
+                         return a;
+                       }});
+  };
+  for (const Eigen::Vector3i& cells : grids)
+    addTets("T4", mechanics::TetOrder::Linear, mechanics::TetPattern::Parallel, cells);
+  for (const Eigen::Vector3i& cells : grids)
+    addTets("T4 mirrored", mechanics::TetOrder::Linear, mechanics::TetPattern::Mirrored, cells);
+  grids.pop_back();  // with its middle nodes, T10 is as fine one grid earlier
+  for (const Eigen::Vector3i& cells : grids)
+    addTets("T10", mechanics::TetOrder::Quadratic, mechanics::TetPattern::Mirrored, cells);
+
   const int base = options.quick ? 8 : 12;
-  std::vector<int> affine = {30, 60}, quadratic = {12, 24};            // 360 and 720 degrees of freedom
-  if (!options.quick) affine.push_back(150), quadratic.push_back(60);  // 1800
+  std::vector<int> affine = {30, 60}, quadratic = {12, 24}, mls = {120, 240};              // 360 and 720 dofs
+  if (!options.quick) affine.push_back(150), quadratic.push_back(60), mls.push_back(600);  // 1800
   for (const int n : affine) addFrames("Voronoi, CG 200 (published)", {Kernel::Voronoi, 1, n, true}, base);
   for (const int n : affine) addFrames("Voronoi, factorised", {Kernel::Voronoi, 1, n, false}, base);
   for (const int n : affine) addFrames("Wendland affine", {Kernel::Wendland, 1, n, false}, base);
   for (const int n : quadratic) addFrames("Wendland quadratic", {Kernel::Wendland, 2, n, false}, base);
+  for (const int n : mls) addFrames("MLS linear", {Kernel::Mls, 1, n, false}, base);
+  for (const int n : mls) addFrames("MLS quadratic", {Kernel::Mls, 2, n, false}, base);
   return methods;
 }
 

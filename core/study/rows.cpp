@@ -97,10 +97,15 @@ render::XyChart chart(const std::vector<Row>& rows, const std::string& reference
   c.caption = caption;
   for (const Row& r : rows) {
     // A logarithmic axis has no place for an error of exactly zero.
-    if (r.reference != reference || !std::isfinite(r.max_error_mm) || r.max_error_mm <= 0 || r.total_s() <= 0) continue;
+    if (r.reference != reference || r.online || !std::isfinite(r.max_error_mm) || r.max_error_mm <= 0 ||
+        r.total_s() <= 0)
+      continue;
     auto s = std::find_if(c.series.begin(), c.series.end(), [&](const auto& one) { return one.name == r.method; });
     if (s == c.series.end()) {
-      c.series.push_back({.name = r.method});
+      // Dashed: mesh-free. With twelve series a colour alone does not tell them apart.
+      const bool meshfree =
+          r.method.rfind("Voronoi", 0) == 0 || r.method.rfind("Wendland", 0) == 0 || r.method.rfind("MLS", 0) == 0;
+      c.series.push_back({.name = r.method, .dashed = meshfree});
       s = std::prev(c.series.end());
     }
     s->x.push_back(r.total_s());

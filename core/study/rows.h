@@ -22,7 +22,8 @@ struct Row {
   bool pareto = false;         ///< no other row of this reference is both faster and closer
   double mean_error_mm = 0.0;  ///< over the points compared
   bool converged = true;
-  std::string note;  ///< how the solve ended where it did not converge, what the model changed
+  bool online = false;  ///< answered from a response made once, offline (build_s): not on the chart of total times
+  std::string note;     ///< how the solve ended where it did not converge, what the model changed
   double total_s() const { return build_s + solve_s; }
 };
 

@@ -70,7 +70,8 @@ double relativeDifference(const mechanics::NodalField& a, const mechanics::Nodal
 
 std::vector<StabilityCase> stabilitySweep(const StabilityOptions& options, const Progress& progress) {
   Scenes scenes;
-  for (const auto& group : {motionScenes, bendingScenes, contrastScenes, matrixScenes, refusalScenes, retractionScenes})
+  for (const auto& group :
+       {motionScenes, bendingScenes, contrastScenes, matrixScenes, meshScenes, refusalScenes, retractionScenes})
     for (ExtremeScene& s : group(options)) scenes.push_back(std::move(s));
   std::vector<StabilityCase> cases;
   for (const ExtremeScene& s : scenes) {
@@ -82,22 +83,17 @@ std::vector<StabilityCase> stabilitySweep(const StabilityOptions& options, const
     c.name = s.name;
     c.expectation = s.expectation;
     const Stopwatch watch;
-    if (!s.run) {
-      c.verdict = "not available";
-      c.detail = s.notAvailable;
-    } else {
-      try {
-        const Outcome o = s.run(Progress([&part](double, const std::string&) { part.check(); }));
-        c.verdict = !o.good ? "fail" : o.refusal ? "refused as expected" : "pass";
-        c.iterations = o.iterations;
-        c.residual = o.residual;
-        c.detail = o.detail;
-      } catch (const Cancelled&) {
-        throw;
-      } catch (const std::exception& e) {
-        c.verdict = "fail";
-        c.detail = std::string("threw: ") + e.what();
-      }
+    try {
+      const Outcome o = s.run(Progress([&part](double, const std::string&) { part.check(); }));
+      c.verdict = !o.good ? "fail" : o.refusal ? "refused as expected" : "pass";
+      c.iterations = o.iterations;
+      c.residual = o.residual;
+      c.detail = o.detail;
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const std::exception& e) {
+      c.verdict = "fail";
+      c.detail = std::string("threw: ") + e.what();
     }
     c.seconds = watch.seconds();
     cases.push_back(std::move(c));

@@ -11,7 +11,7 @@ namespace glisson::study {
 struct StabilityCase {
   std::string name;
   std::string expectation;
-  std::string verdict;    ///< "pass", "fail", "refused as expected", "not available"
+  std::string verdict;    ///< "pass", "fail", "refused as expected"
   int iterations = 0;     ///< of the solve that took most
   double residual = 0.0;  ///< largest true relative residual of its solves
   std::string detail;     ///< the numbers behind the verdict

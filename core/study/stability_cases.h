@@ -31,8 +31,7 @@ struct Outcome {
 
 struct ExtremeScene {
   std::string name, expectation;
-  std::function<Outcome(const Progress&)> run;  ///< empty: not available, for the reason in `expectation`'s place
-  std::string notAvailable;
+  std::function<Outcome(const Progress&)> run;
 };
 
 using Scenes = std::vector<ExtremeScene>;
@@ -41,6 +40,7 @@ Scenes bendingScenes(const StabilityOptions& options);     ///< beams, own weigh
 Scenes contrastScenes(const StabilityOptions& options);    ///< inclusions, random moduli, bars, spheres
 Scenes matrixScenes(const StabilityOptions& options);      ///< symmetry, zero modes, balance, threads, scales, sizes
 Scenes refusalScenes(const StabilityOptions& options);     ///< unusable moduli, supports, islands
+Scenes meshScenes(const StabilityOptions& options);        ///< tetrahedra and mesh-free sites, good and bad
 Scenes retractionScenes(const StabilityOptions& options);  ///< whole scenes: comparison, retractor, validity
 
 /// "text 1.234 text": numbers with four digits.

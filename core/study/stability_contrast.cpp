@@ -184,44 +184,31 @@ Scenes contrastScenes(const StabilityOptions& options) {
   Scenes s;
   const int n = options.quick ? 10 : 20;
   for (const double c : {10.0, 1e2, 1e4, 1e6})
-    s.push_back({words("stiff inclusion x", c),
-                 "default solver = factorised to 1e-8",
-                 [c, n](const Progress& p) {
+    s.push_back({words("stiff inclusion x", c), "default solver = factorised to 1e-8", [c, n](const Progress& p) {
                    return againstFactorised(
                        [c](const Vector3d& x) { return (x - Vector3d::Constant(0.03)).norm() < 0.012 ? 6e3 * c : 6e3; },
                        n, p);
-                 },
-                 {}});
+                 }});
   for (const int decades : {2, 4, 6})
-    s.push_back({words("random moduli over ", decades, " decades"),
-                 "default solver = factorised to 1e-8",
+    s.push_back({words("random moduli over ", decades, " decades"), "default solver = factorised to 1e-8",
                  [decades, n](const Progress& p) {
                    Random random(7);
                    return againstFactorised(
                        [&](const Vector3d&) { return 6e3 * std::pow(10.0, decades * random.uniform(-0.5, 0.5)); }, n,
                        p);
-                 },
-                 {}});
+                 }});
   for (const double c : {1.0, 1e2, 1e4, 1e6}) {
-    s.push_back({words("bar in series, contrast ", c),
-                 "stretch by closed form to 1e-10",
-                 [c](const Progress& p) { return seriesBar(c, p); },
-                 {}});
-    s.push_back({words("bars side by side, contrast ", c),
-                 "arithmetic mean of E to 1e-10",
-                 [c](const Progress& p) { return parallelBar(c, p); },
-                 {}});
+    s.push_back({words("bar in series, contrast ", c), "stretch by closed form to 1e-10",
+                 [c](const Progress& p) { return seriesBar(c, p); }});
+    s.push_back({words("bars side by side, contrast ", c), "arithmetic mean of E to 1e-10",
+                 [c](const Progress& p) { return parallelBar(c, p); }});
   }
   const int coarse = options.quick ? 20 : 40;
-  s.push_back({"thick sphere under pressure",
-               "u(a) 0.52094, u(b) 0.09402 mm within 1 %, two voxel sizes extrapolated",
-               [coarse](const Progress& p) { return thickSphere(coarse, p); },
-               {}});
+  s.push_back({"thick sphere under pressure", "u(a) 0.52094, u(b) 0.09402 mm within 1 %, two voxel sizes extrapolated",
+               [coarse](const Progress& p) { return thickSphere(coarse, p); }});
   for (const double c : {0.1, 10.0, 1000.0})
-    s.push_back({words("spherical inclusion, hydrostatic, contrast ", c),
-                 "Eshelby's strain ratio within 5 % on voxels",
-                 [c, q = options.quick](const Progress& p) { return eshelby(c, q ? 40 : 48, p); },
-                 {}});
+    s.push_back({words("spherical inclusion, hydrostatic, contrast ", c), "Eshelby's strain ratio within 5 % on voxels",
+                 [c, q = options.quick](const Progress& p) { return eshelby(c, q ? 40 : 48, p); }});
   return s;
 }
 

@@ -154,71 +154,44 @@ Outcome hole(const Progress&) {
 Scenes refusalScenes(const StabilityOptions&) {
   Scenes s;
   const auto bad = [&](const std::string& name, float value) {
-    s.push_back({"modulus " + name,
-                 "refused, naming voxel and slice",
-                 [value](const Progress&) { return badModulus(value); },
-                 {}});
+    s.push_back(
+        {"modulus " + name, "refused, naming voxel and slice", [value](const Progress&) { return badModulus(value); }});
   };
   bad("negative", -1.0f);
   bad("not a number", std::numeric_limits<float>::quiet_NaN());
   bad("infinite", std::numeric_limits<float>::infinity());
   bad("1e30 kPa", 1e30f);
-  s.push_back({"modulus 0 everywhere",
-               "refused: nothing is there",
-               [](const Progress&) {
+  s.push_back({"modulus 0 everywhere", "refused: nothing is there", [](const Progress&) {
                  return refused([] { VoxelMesh(solidBox({3, 3, 3}, Vector3d::Constant(0.03), 0.0, 0.45)); }, {});
-               },
-               {}});
+               }});
   for (const double nu : {0.5, 0.6, -1.0, std::numeric_limits<double>::quiet_NaN()})
-    s.push_back({words("Poisson's ratio ", nu),
-                 "refused, with the range",
-                 [nu](const Progress&) {
+    s.push_back({words("Poisson's ratio ", nu), "refused, with the range", [nu](const Progress&) {
                    return refused([nu] { VoxelMesh(solidBox({3, 3, 3}, Vector3d::Constant(0.03), 6e3, nu)); }, {"0.5"});
-                 },
-                 {}});
-  s.push_back({"density 0",
-               "refused",
-               [](const Progress&) {
+                 }});
+  s.push_back({"density 0", "refused", [](const Progress&) {
                  mechanics::VoxelBody body = solidBox({3, 3, 3}, Vector3d::Constant(0.03), 6e3, 0.45);
                  body.density_kg_m3 = 0;
                  return refused([&] { const VoxelMesh mesh(body); }, {"density"});
-               },
-               {}});
+               }});
   const Vector3d a(0, 0, 0), b(0.06, 0, 0), c(0.03, 0, 0);
-  s.push_back(
-      {"no support, static", "refused: 6 free rigid modes", [](const Progress& p) { return held({}, 6, p); }, {}});
-  s.push_back(
-      {"one fixed node", "refused: 3 free rigid modes", [=](const Progress& p) { return held({a}, 3, p); }, {}});
-  s.push_back({"two fixed nodes",
-               "refused: 1 free rigid mode",
-               [=](const Progress& p) {
-                 return held({a, b}, 1, p);
-               },
-               {}});
-  s.push_back({"three fixed nodes in a line",
-               "refused: 1 free rigid mode",
-               [=](const Progress& p) {
+  s.push_back({"no support, static", "refused: 6 free rigid modes", [](const Progress& p) { return held({}, 6, p); }});
+  s.push_back({"one fixed node", "refused: 3 free rigid modes", [=](const Progress& p) { return held({a}, 3, p); }});
+  s.push_back({"two fixed nodes", "refused: 1 free rigid mode", [=](const Progress& p) { return held({a, b}, 1, p); }});
+  s.push_back({"three fixed nodes in a line", "refused: 1 free rigid mode", [=](const Progress& p) {
                  return held({a, b, c}, 1, p);
-               },
-               {}});
-  s.push_back({"island of voxels", "refused, named with its volume; solves once dropped", island, {}});
-  s.push_back({"blocks that share an edge only", "refused: a hinge carries nothing", edgeJoint, {}});
-  s.push_back({"one voxel", "stretches as a bar", oneVoxel, {}});
-  s.push_back({"slab one voxel thick", "within 5 % of Timoshenko", sliver, {}});
-  s.push_back({"polygon that crosses itself", "even-odd rule, exact area", selfCrossing, {}});
-  s.push_back({"polygon with a hole", "even-odd rule, exact area", hole, {}});
-  s.push_back({"region of interest off the image",
-               "refused",
-               [](const Progress&) {
+               }});
+  s.push_back({"island of voxels", "refused, named with its volume; solves once dropped", island});
+  s.push_back({"blocks that share an edge only", "refused: a hinge carries nothing", edgeJoint});
+  s.push_back({"one voxel", "stretches as a bar", oneVoxel});
+  s.push_back({"slab one voxel thick", "within 5 % of Timoshenko", sliver});
+  s.push_back({"polygon that crosses itself", "even-odd rule, exact area", selfCrossing});
+  s.push_back({"polygon with a hole", "even-odd rule, exact area", hole});
+  s.push_back({"region of interest off the image", "refused", [](const Progress&) {
                  return refused([] { voxels(polygon({{105, 105, 1}, {125, 105, 1}, {125, 125, 1}})); }, {});
-               },
-               {}});
-  s.push_back({"region of interest between the slices' reach",
-               "refused",
-               [](const Progress&) {
+               }});
+  s.push_back({"region of interest between the slices' reach", "refused", [](const Progress&) {
                  return refused([] { voxels(polygon({{5, 5, 9}, {25, 5, 9}, {25, 25, 9}})); }, {});
-               },
-               {}});
+               }});
   return s;
 }
 

@@ -105,35 +105,23 @@ Outcome forceKept(const std::string& held, const retraction::Retractor& b, const
 
 Scenes retractionScenes(const StabilityOptions&) {
   Scenes s;
-  s.push_back({"stiffness map constant and equal to the atlas", "difference exactly 0", constantMap, {}});
-  s.push_back({"displacement larger than the body", "marked invalid, no overlay", tooMuch, {}});
-  s.push_back({"cells turned inside out", "marked invalid, no overlay", inverted, {}});
-  s.push_back({"retractor on one voxel face",
-               "total force kept",
-               [](const Progress& p) {
+  s.push_back({"stiffness map constant and equal to the atlas", "difference exactly 0", constantMap});
+  s.push_back({"displacement larger than the body", "marked invalid, no overlay", tooMuch});
+  s.push_back({"cells turned inside out", "marked invalid, no overlay", inverted});
+  s.push_back({"retractor on one voxel face", "total force kept", [](const Progress& p) {
                  return forceKept("z+", bar({50, 30, 0}, 0.5, 0.5), p);
-               },
-               {}});
-  s.push_back({"retractor over the edge of the body",
-               "total force kept",
-               [](const Progress& p) {
+               }});
+  s.push_back({"retractor over the edge of the body", "total force kept", [](const Progress& p) {
                  return forceKept("z+", bar({100, 30, 0}, 10, 80), p);
-               },
-               {}});
-  s.push_back({"retractor on fixed nodes",
-               "total force kept, nothing moves there",
-               [](const Progress& p) {
+               }});
+  s.push_back({"retractor on fixed nodes", "total force kept, nothing moves there", [](const Progress& p) {
                  return forceKept("z-", bar({50, 30, 0}, 10, 80), p);
-               },
-               {}});
-  s.push_back({"retractor off the surface",
-               "refused: no contact",
-               [](const Progress& p) {
+               }});
+  s.push_back({"retractor off the surface", "refused: no contact", [](const Progress& p) {
                  retraction::Setup setup = onFace("z+");
                  setup.loads.push_back(bar({50, 30, -60}, 10, 80));
                  return refused([&] { retraction::simulate(blockModel(), setup, {}, p); }, {"no contact"});
-               },
-               {}});
+               }});
   return s;
 }
 

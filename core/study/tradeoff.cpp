@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <map>
+#include <memory>
 #include <sstream>
 
 #include "base/error.h"
 #include "pipeline/run.h"
+#include "retraction/body.h"
 #include "retraction/discretisation.h"
+#include "study/methods.h"
 #include "study/timing.h"
+#include "study/tradeoff_variants.h"
 
 namespace glisson::study {
 namespace {
@@ -18,61 +22,14 @@ using mechanics::HexElement;
 using retraction::ModelKind;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// One way to answer the scene: cells coarser by a factor, and a setup.
-struct Variant {
-  std::string method;
-  double factor = 1.0;
-  std::function<void(retraction::Setup&)> change;
-  std::string also{};  ///< goes behind the resolution
+/// The scene's body in cells of one size.
+struct Case {
+  retraction::Model model;
+  std::unique_ptr<retraction::Body> body;
+  retraction::MechanicsScene scene;
+  std::string failed;  ///< why there is none
+  std::string sameAs;  ///< the size that came to the same grid
 };
-
-std::vector<Variant> variants(bool quick, std::size_t cells) {
-  std::vector<Variant> all;
-  const auto element = [](HexElement e, double tolerance) {
-    return [=](retraction::Setup& s) {
-      s.model.kind = ModelKind::FemHex;
-      s.model.element = e;
-      s.solver = {};
-      if (tolerance > 0) {
-        s.solver.kind = mechanics::SolverKind::Multigrid;
-        s.solver.tolerance = tolerance;
-      }
-    };
-  };
-  const std::vector<double> factors = quick ? std::vector<double>{1, 2, 3} : std::vector<double>{1, 1.5, 2, 3, 4};
-  for (const auto& [name, e] : {std::pair<const char*, HexElement>{"H8-incompatible", HexElement::Incompatible},
-                                {"H8-Bbar", HexElement::BBar},
-                                {"H8", HexElement::H8}})
-    for (const double f : factors) all.push_back({name, f, element(e, 0)});
-  for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-5}) {
-    std::ostringstream also;
-    also << ", tolerance " << tolerance;
-    all.push_back({"H8-incompatible, looser", 1, element(HexElement::Incompatible, tolerance), also.str()});
-  }
-  const auto frames = [](mechanics::Kernel kernel, int order, int count, bool published) {
-    return [=](retraction::Setup& s) {
-      s.model.kind = ModelKind::Meshfree;
-      s.model.element = HexElement::Incompatible;
-      s.model.meshfree.kernel = kernel;
-      s.model.meshfree.order = order;
-      s.model.meshfree.frames = count;
-      s.solver = {};
-      if (!published) return;
-      s.solver.kind = mechanics::SolverKind::Cg;
-      s.solver.preconditioner = mechanics::Preconditioner::None;
-      s.solver.iterations = 200;
-    };
-  };
-  // Many frames on many cells cost minutes; the trend is seen with fewer.
-  const bool few = quick || cells > 60000;
-  for (const int n : few ? std::vector<int>{25, 50} : std::vector<int>{25, 50, 100, 200}) {
-    all.push_back({"Wendland affine", 1, frames(mechanics::Kernel::Wendland, 1, n, false)});
-    all.push_back({"Voronoi, CG 200 (published)", 1, frames(mechanics::Kernel::Voronoi, 1, n, true)});
-  }
-  for (const int n : few ? std::vector<int>{10, 20} : std::vector<int>{10, 20, 40, 80})
-    all.push_back({"Wendland quadratic", 1, frames(mechanics::Kernel::Wendland, 2, n, false)});
-  return all;
-}
 
 /// Up to `most` cell centres, evenly through the list.
 std::vector<Eigen::Vector3d> comparedPoints(const retraction::Model& model, std::size_t most) {
@@ -122,6 +79,186 @@ void compare(Row& row, const std::vector<Eigen::Vector3d>& u, const std::vector<
                 " points lie outside this body";
 }
 
+/// The study's state: cases by cell size, rows so far.
+class Tradeoff {
+ public:
+  Tradeoff(pipeline::Scene scene, const pipeline::Inputs& inputs, const retraction::Model& own,
+           std::vector<Eigen::Vector3d> points, std::vector<Eigen::Vector3d> truth, TradeoffStudy& study)
+      : scene_(std::move(scene)),
+        inputs_(inputs),
+        own_(own),
+        points_(std::move(points)),
+        truth_(std::move(truth)),
+        study_(study) {}
+
+  /// Adds the variant's row, or says why there is none.
+  void run(const Variant& v, const Progress& progress) {
+    std::ostringstream name;
+    name << v.method;
+    if (v.factor != 1.0) name << ", cells x " << v.factor;
+    if (v.kind == Variant::Kind::Frames) name << ", " << v.meshfree.frames << " frames";
+    name << v.also << ": ";
+    const auto skip = [&](const std::string& why) { study_.skipped.push_back(name.str() + why); };
+    try {
+      Case& c = at(v.factor, progress.part(0.0, 0.2));
+      if (!c.failed.empty()) return skip(c.failed);
+      if (!c.sameAs.empty()) return skip("the same grid as " + c.sameAs);
+      if (v.mostCells > 0 && c.model.cells > v.mostCells)
+        return skip(std::to_string(c.model.cells) + " cells would take minutes (limit " + std::to_string(v.mostCells) +
+                    ")");
+      Row row = answer(v, c, progress.part(0.2, 1.0));
+      for (const Row& other : study_.rows)
+        if (other.method == row.method && other.dofs == row.dofs && other.reference == row.reference &&
+            std::abs(other.max_error_mm - row.max_error_mm) <= 1e-6 * other.max_error_mm)
+          return skip("the same answer as " + other.resolution);
+      // Lloyd's method finds room for fewer frames than the nodes alone would have.
+      if (v.kind == Variant::Kind::Frames)
+        for (const Row& other : study_.rows)
+          if (other.method == row.method && row.dofs < 1.15 * other.dofs)
+            return skip("the voxels had room for " + row.resolution + ", hardly more than above");
+      study_.rows.push_back(std::move(row));
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& e) {
+      skip(e.what());
+    }
+  }
+
+ private:
+  Case& at(double factor, const Progress& progress) {
+    const auto found = cases_.find(factor);
+    if (found != cases_.end()) return found->second;
+    Case& c = cases_[factor];
+    try {
+      if (factor == 1.0) {
+        c.model = own_;
+      } else {
+        pipeline::Scene coarse = scene_;
+        coarse.geometry.cell_mm = factor * own_.youngs_kPa.grid.spacing_mm;
+        coarse.setup.model = {};
+        coarse.setup.solver = {};
+        c.model = pipeline::run(coarse, {.output = {}, .discretisation = false}, progress, &inputs_).model;
+      }
+      for (const auto& [other, before] : cases_)
+        if (other != factor && before.failed.empty() && before.sameAs.empty() &&
+            before.model.youngs_kPa.grid.sameGeometry(c.model.youngs_kPa.grid, 1e-9) &&
+            before.model.youngs_kPa.values == c.model.youngs_kPa.values)
+          c.sameAs = cellsText(before.model);
+      c.body = std::make_unique<retraction::Body>(c.model);
+      c.scene = retraction::toMechanics(*c.body, c.model, scene_.setup);
+    } catch (const Cancelled&) {
+      cases_.erase(factor);
+      throw;
+    } catch (const Error& e) {
+      c.failed = e.what();
+    }
+    return c;
+  }
+
+  /// Through the whole retraction step: tetrahedra, and scenes that move or are not linear.
+  Measured simulated(const Variant& v, const Case& c, const Progress& progress) const {
+    retraction::Setup setup = scene_.setup;
+    setup.solver = v.solver;
+    setup.condensed = v.kind == Variant::Kind::Condensed;
+    setup.model.kind = v.kind == Variant::Kind::Tetrahedra ? ModelKind::FemTet
+                       : v.kind == Variant::Kind::Frames   ? ModelKind::Meshfree
+                                                           : ModelKind::FemHex;
+    setup.model.element = v.solver.element;
+    setup.model.quadraticTets = v.quadraticTets;
+    setup.model.meshfree = v.meshfree;
+    if (v.kind == Variant::Kind::Corotational) setup.kinematics = retraction::Kinematics::Corotational;
+    const Stopwatch total;
+    retraction::Result r = retraction::simulate(c.model, setup, {}, progress);
+    Measured m;
+    const double seconds = total.seconds();
+    m.solve_s = std::min(r.solver.seconds, seconds);
+    m.build_s = seconds - m.solve_s;
+    m.dofs = r.dofs;
+    m.frames = r.frames;
+    m.converged = r.solver.converged();
+    m.note = ending(r.solver);
+    if (r.steps > 0) m.step_ms = 1e3 * seconds / r.steps;
+    m.u_m = std::move(r.nodal_u_m);
+    return m;
+  }
+
+  Measured measured(const Variant& v, const Case& c, const Progress& progress) const {
+    const bool plain = scene_.setup.kinematics == retraction::Kinematics::Linear && !scene_.setup.analysis.dynamic;
+    if (!plain || v.kind == Variant::Kind::Tetrahedra || v.kind == Variant::Kind::Corotational)
+      return simulated(v, c, progress);
+    // A step on many cells takes as long as a solve.
+    const int steps = c.model.cells <= 30000 ? 3 : 0;
+    if (v.kind == Variant::Kind::Frames) return measureFrames(c.scene.problem, v.meshfree, v.solver, steps, progress);
+    if (v.kind == Variant::Kind::Condensed) return measureCondensed(c.scene.problem, c.scene.loads_N, steps, progress);
+    return measureVoxels(c.scene.problem, v.solver, v.solver.kind == mechanics::SolverKind::Auto ? steps : 0, progress);
+  }
+
+  std::vector<Eigen::Vector3d> atPoints(const Case& c, const mechanics::NodalField& u_m) const {
+    retraction::Result r;
+    r.nodal_u_m = u_m;
+    return retraction::displacementAt(c.model, r, points_);
+  }
+
+  /// What the solver alone leaves: the distance from the exact answer of the same cells.
+  void noteSolver(const Variant& v, const Measured& m, const std::vector<Eigen::Vector3d>& u, Row& row) {
+    if (v.solver.kind == mechanics::SolverKind::Auto) {
+      if (v.solver.element == HexElement::Incompatible) exact_ = u;
+      return;
+    }
+    if (exact_.size() != u.size()) return;
+    double worst = 0.0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const double d = (u[i] - exact_[i]).norm();
+      if (std::isfinite(d)) worst = std::max(worst, d);
+    }
+    std::ostringstream t;
+    t.precision(2);
+    t << (row.note.empty() ? "" : "; ") << "the solver leaves " << worst << " mm after " << m.iterations
+      << " iterations";
+    row.note += t.str();
+  }
+
+  Row answer(const Variant& v, Case& c, const Progress& progress) {
+    if (v.kind == Variant::Kind::Corotational && scene_.setup.kinematics != retraction::Kinematics::Linear)
+      throw BadInput("the scene itself is not linear");
+    const Measured m = quickest([&] { return measured(v, c, progress); });
+    Row row;
+    row.method = v.method;
+    row.resolution = cellsText(c.model) + v.also;
+    if (v.kind == Variant::Kind::Frames) row.resolution = std::to_string(m.frames) + " frames on " + row.resolution;
+    row.dofs = m.dofs;
+    row.build_s = m.build_s;
+    row.solve_s = m.solve_s;
+    row.step_ms = m.step_ms;
+    row.converged = m.converged;
+    row.note = m.note;
+    row.reference = study_.reference;
+    if (v.kind == Variant::Kind::Condensed) {
+      row.online = true;
+      row.note = "solve s is the online product; build s is spent once";
+    }
+    if (v.kind == Variant::Kind::Corotational) {
+      Variant linear;
+      const Measured straight = measured(linear, c, progress);
+      row.reference = linearTheory;
+      compare(row, atPoints(c, m.u_m), atPoints(c, straight.u_m));
+    } else {
+      const std::vector<Eigen::Vector3d> u = atPoints(c, m.u_m);
+      compare(row, u, truth_);
+      if (v.kind == Variant::Kind::Voxels && v.factor == 1.0) noteSolver(v, m, u, row);
+    }
+    return row;
+  }
+
+  pipeline::Scene scene_;
+  const pipeline::Inputs& inputs_;
+  const retraction::Model& own_;
+  std::vector<Eigen::Vector3d> points_, truth_;
+  std::vector<Eigen::Vector3d> exact_;  ///< of the scene's own cells
+  TradeoffStudy& study_;
+  std::map<double, Case> cases_;
+};
+
 }  // namespace
 
 std::string TradeoffStudy::summary() const {
@@ -149,7 +286,8 @@ TradeoffStudy studyTradeoff(const pipeline::Scene& asked, const TradeoffOptions&
   own.setup.model.element = HexElement::Incompatible;
   own.setup.solver = {};
   progress.report(0.05, "the scene at its own resolution");
-  const pipeline::RunResult base = pipeline::run(own, {}, progress.part(0.05, 0.1), &inputs);
+  const pipeline::RunResult base =
+      pipeline::run(own, {.output = {}, .discretisation = false}, progress.part(0.05, 0.1), &inputs);
   scene.setup = held(scene.setup, base.model, base.primary);
   const std::vector<Eigen::Vector3d> points = comparedPoints(base.model, 20000);
   study.points = points.size();
@@ -172,44 +310,31 @@ TradeoffStudy studyTradeoff(const pipeline::Scene& asked, const TradeoffOptions&
   for (const Eigen::Vector3d& u : reference)
     if (u.allFinite()) study.largest_mm = std::max(study.largest_mm, u.norm());
 
-  const std::vector<Variant> all = variants(options.quick, base.model.cells);
+  Tradeoff tradeoff(scene, inputs, base.model, points, reference, study);
+  const std::vector<Variant> all =
+      tradeoffVariants(options.quick, base.model.cells, static_cast<int>(base.primary.nodal_u_m.cols()),
+                       scene.setup.seed, study.skipped);
+  const Stopwatch budget;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Variant& v = all[i];
     const double n = static_cast<double>(all.size());
     const Progress part =
         progress.part(0.25 + 0.75 * static_cast<double>(i) / n, 0.25 + 0.75 * static_cast<double>(i + 1) / n);
-    part.report(0.0, v.method);
-    pipeline::Scene one = scene;
-    v.change(one.setup);
-    if (v.factor != 1.0) one.geometry.cell_mm = v.factor * base.model.youngs_kPa.grid.spacing_mm;
-    try {
-      const Stopwatch total;
-      const pipeline::RunResult r = pipeline::run(one, {}, part, &inputs);
-      const double seconds = total.seconds();
-      Row row;
-      row.method = v.method;
-      row.resolution = cellsText(r.model) + v.also;
-      if (one.setup.model.kind == ModelKind::Meshfree)
-        row.resolution = std::to_string(r.primary.dofs / (one.setup.model.meshfree.order == 1 ? 12 : 30)) +
-                         " frames on " + row.resolution;
-      row.dofs = r.primary.dofs;
-      row.solve_s = std::min(r.primary.solver.seconds, seconds);
-      row.build_s = seconds - row.solve_s;
-      row.step_ms = r.primary.steps > 0 ? 1e3 * seconds / r.primary.steps : none;
-      row.reference = study.reference;
-      row.converged = r.primary.solver.converged();
-      if (!row.converged) row.note = r.primary.validity.empty() ? "not converged" : r.primary.validity.front();
-      compare(row, retraction::displacementAt(r.model, r.primary, points), reference);
-      study.rows.push_back(std::move(row));
-    } catch (const Cancelled&) {
-      throw;
-    } catch (const Error& e) {
+    part.report(0.0, all[i].method);
+    if (budget.seconds() > options.budget_s) {
       std::ostringstream why;
-      why << v.method << ", cells x " << v.factor << ": " << e.what();
+      why << all.size() - i << " further variants, from \"" << all[i].method << "\" on: the budget of "
+          << options.budget_s << " s was spent";
       study.skipped.push_back(why.str());
+      break;
     }
+    // The variant's own messages would pass by faster than one can read.
+    tradeoff.run(all[i], Progress([&part](double, const std::string&) { part.check(); }));
   }
+  std::stable_partition(study.rows.begin(), study.rows.end(),
+                        [&](const Row& r) { return r.reference == study.reference; });
   markPareto(study.rows);
+  for (Row& r : study.rows)
+    if (r.reference == linearTheory) r.pareto = false;  // alone with its reference
   progress.report(1.0, "trade-off done");
   return study;
 }

@@ -48,6 +48,35 @@ class Contract(unittest.TestCase):
                             "loads": [{"kind": "body_force", "N_per_m3": [1060 * 9.81, 0, 0]}]})
         self.assertAlmostEqual(r["probes"][0]["u_mm"][0], 1060 * 9.81 * 0.05**2 / (2 * 12e3) * 1e3, places=6)
 
+    def test_moving_least_squares_says_how_many_frames_had_room(self):
+        I, A, L = 10e-3 * (10e-3) ** 3 / 12, 1e-4, 50e-3
+        force = 1e-3 * 8 * 12e3 * I / L**4 / A
+        load = [{"kind": "body_force", "N_per_m3": [0, 0, -force]}]
+        model = {"kind": "meshfree", "kernel": "mls", "order": 2, "frames": 200}
+        r = self.run_scene({**BEAM, "loads": load, "model": model})
+        self.assertAlmostEqual(r["probes"][0]["u_mm"][2], -1.0239, delta=0.0164)
+        self.assertTrue(r["discretisation_error"]["known"], r["discretisation_error"]["note"])
+        self.assertEqual(r["model"]["dofs"], 3 * r["model"]["frames"])
+        self.assertEqual(r["model"]["frames_asked"], 200)
+        clamped = self.run_scene({**BEAM, "loads": load, "model": {**model, "frames": 5000}})
+        self.assertLess(clamped["model"]["frames"], 5000)
+        self.assertTrue(any("instead of 5000" in line for line in clamped["validity"]), clamped["validity"])
+        why = [step["why"] for step in clamped["plan"] if step["step"] == "mesh-free-frames"][0]
+        self.assertIn("5000", why)
+
+    def test_tradeoff_has_every_key_and_no_row_twice(self):
+        scene = {**BEAM, "geometry": {**BEAM["geometry"], "cell_mm": 2.5},
+                 "loads": [{"kind": "traction", "region": {"face": "x+"}, "kPa": [0, 0, -0.005]}]}
+        r = cli_json("tradeoff", write_scene(self.folder, scene), "--quick", "--output", self.folder / "out")
+        seen = set()
+        for row in r["rows"]:
+            self.assertLessEqual({"method", "resolution", "dofs", "build_s", "solve_s", "step_ms", "max_error_mm",
+                                  "tip_error_mm", "reference", "pareto"}, set(row))
+            self.assertNotIn((row["method"], row["resolution"]), seen)
+            seen.add((row["method"], row["resolution"]))
+        self.assertLessEqual({"T4", "T10", "MLS quadratic", "Condensed", "Corotational"}, {m for m, _ in seen})
+        self.assertTrue((self.folder / "out/tradeoff.png").is_file())
+
     def test_dynamic_settles_at_the_static_answer(self):
         load = [{"kind": "traction", "region": {"face": "x+"}, "kPa": [0.1, 0, 0]}]
         static = self.run_scene({**BEAM, "loads": load, "geometry": {**BEAM["geometry"], "cell_mm": 5}})
