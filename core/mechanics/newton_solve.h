@@ -17,7 +17,9 @@ inline constexpr int largeDeformationLimit = 1500000;  ///< degrees of freedom; 
 /// Solves f_int(u) + springs u = f with prescribed displacements by Newton's method. Loads are dead loads: they keep
 /// their direction and size. The whole load is tried at once; where Newton's method fails or a cell would turn inside
 /// out (at its centre or a corner), half of it is, from a quarter on with a line search on the potential energy as
-/// well, and steps grow again. Ends below 1/128 of the load or after 200 iterations. Tangents are solved, by
+/// well, and steps grow again. An attempt is given up where the residual fails to halve
+/// four times in a row (eight with line search). Ends below 1/128 of the load, after 200 iterations, or after 60 in
+/// attempts that failed. Tangents are solved, by
 /// SolverOptions::kind: Factorised; Cg with the preconditioner; Multigrid (of the undeformed body) inside conjugate
 /// gradients; Auto takes Factorised up to 3000 degrees of freedom, Multigrid above, and Factorised again (up to
 /// StaticSolver::factorisedLimit) where that does not converge. iterations limits the iterations of each inner solve.

@@ -273,6 +273,26 @@ TEST(LargeDeformation, StopsHonestlyWhereNoEquilibriumIsLeft) {
   EXPECT_EQ(summarise(mesh, s.u_m).invertedCells, 0U);
 }
 
+TEST(LargeDeformation, LoadsThatFoldCellsAreGivenUpInBoundedWork) {
+  Problem p;
+  p.body = test::box({6, 6, 4}, {0.03, 0.03, 0.02}, 5e3, 0.4);
+  const VoxelMesh mesh(p.body);
+  p.supports.fixations = fix(test::nodesWhere(mesh, [](const Eigen::Vector3d& x) { return x.z() == 0; }));
+  p.f_N = tractionForce(mesh, test::facesWhere(mesh, 5, [](const Eigen::Vector3d& x) { return x.x() < 0.015; }),
+                        Eigen::Vector3d(0, 0, -3e4));
+  for (const LargeDeformationKind kind : kinds) {
+    const Solution s = solveLargeDeformation(p, kind);
+    EXPECT_EQ(s.report.status, SolveStatus::StoppedAtLimit);
+    // 60 iterations of failed attempts and the last attempt; what succeeds comes on top.
+    EXPECT_LE(s.report.iterations, 150);
+    EXPECT_TRUE(s.u_m.allFinite());
+    EXPECT_EQ(summarise(mesh, s.u_m).invertedCells, 0U);
+    RecordProperty("iterations", s.report.iterations);
+    std::printf("folding load: %d iterations, %.2f s: %s\n", s.report.iterations, s.report.seconds,
+                s.report.why.c_str());
+  }
+}
+
 TEST(LargeDeformation, LoadsAndRefusals) {
   Problem p = cantilever({4, 2, 2}, {0.04, 0.02, 0.02}, 5e3, 0.3, 0.01);
   for (const LargeDeformationKind kind : kinds) {
