@@ -1,69 +1,72 @@
 #include "exchange/mesh_files.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkStringArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLUnstructuredGridWriter.h>
-
-#include <cmath>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
 
 #include "base/error.h"
-#include "exchange/write_text.h"
+#include "exchange/text_file.h"
+#include "exchange/xml_text.h"
 #include "retraction/body.h"
 
 namespace glisson::exchange {
 namespace {
 
-void addArrays(vtkDataSetAttributes* to, const std::vector<NamedArray>& arrays, Eigen::Index count) {
-  for (const NamedArray& a : arrays) {
-    if (a.values.cols() != count)
-      throw BadArgument("array '" + a.name + "' has " + std::to_string(a.values.cols()) + " values for " +
-                        std::to_string(count) + " points or cells");
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(a.name.c_str());
-    array->SetNumberOfComponents(static_cast<int>(a.values.rows()));
-    array->SetNumberOfTuples(a.values.cols());
-    for (Eigen::Index n = 0; n < a.values.cols(); ++n)
-      for (Eigen::Index c = 0; c < a.values.rows(); ++c)
-        array->SetComponent(n, static_cast<int>(c), a.values(c, n));
-    to->AddArray(array);
+/// A VTK XML file with its numbers appended raw: eight bytes of length, then little-endian values.
+class VtkXml {
+ public:
+  explicit VtkXml(const char* type) : type_(type) {
+    static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
   }
-}
+  void line(const std::string& text) { xml_ += text + "\n"; }
+  template <typename Number>
+  void array(const char* kind, const std::string& name, std::size_t components, const std::vector<Number>& values) {
+    xml_ += std::string("<DataArray type=\"") + kind + "\" Name=\"" + xmlEscaped(name) + "\" NumberOfComponents=\"" +
+            std::to_string(components) + "\" format=\"appended\" offset=\"" + std::to_string(data_.size()) + "\"/>\n";
+    const std::uint64_t bytes = values.size() * sizeof(Number);
+    data_.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+    data_.append(reinterpret_cast<const char*>(values.data()), bytes);
+  }
+  void matrix(const std::string& name, const Eigen::MatrixXd& m) {
+    array("Float64", name, static_cast<std::size_t>(m.rows()), std::vector<double>(m.data(), m.data() + m.size()));
+  }
+  void arrays(const char* section, const std::vector<NamedArray>& all, Eigen::Index count) {
+    line(std::string("<") + section + ">");
+    for (const NamedArray& a : all) {
+      if (a.values.cols() != count)
+        throw BadArgument("array '" + a.name + "' has " + std::to_string(a.values.cols()) + " values for " +
+                          std::to_string(count) + " points or cells");
+      matrix(a.name, a.values);
+    }
+    line(std::string("</") + section + ">");
+  }
+  void points(const Eigen::Matrix3Xd& p) {
+    line("<Points>");
+    matrix("Points", p);
+    line("</Points>");
+  }
+  std::string text() const {
+    const std::string type(type_);
+    return "<?xml version=\"1.0\"?>\n<!-- points in mm, LPS; research use only, not for clinical use -->\n<VTKFile "
+           "type=\"" +
+           type + "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<" + type +
+           ">\n<FieldData>\n<Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" format=\"ascii\">\n" +
+           "76 80 83 0\n</Array>\n</FieldData>\n" +  // "LPS" as character codes
+           xml_ + "</" + type + ">\n<AppendedData encoding=\"raw\">\n_" + data_ + "\n</AppendedData>\n</VTKFile>\n";
+  }
 
-void describe(vtkDataSet* data) {
-  vtkNew<vtkStringArray> space;
-  space->SetName("SPACE");
-  space->InsertNextValue("LPS");
-  data->GetFieldData()->AddArray(space);
-  vtkNew<vtkStringArray> note;
-  note->SetName("NOTE");
-  note->InsertNextValue("points in mm; research use only, not for clinical use");
-  data->GetFieldData()->AddArray(note);
-}
+ private:
+  const char* type_;
+  std::string xml_, data_;
+};
 
-vtkNew<vtkPoints> pointsOf(const Eigen::Matrix3Xd& p) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(p.cols());
-  for (Eigen::Index n = 0; n < p.cols(); ++n) points->SetPoint(n, p(0, n), p(1, n), p(2, n));
-  return points;
-}
-
-template <typename Writer>
-void write(Writer* writer, vtkDataObject* data, const std::filesystem::path& file) {
-  writer->SetInputData(data);
-  writer->WriteToOutputStringOn();
-  writer->SetDataModeToBinary();
-  if (writer->Write() == 0) throw BadInput("'" + file.filename().string() + "' cannot be written");
-  writeBytes(file, writer->GetOutputString());
+/// Where each cell of equal size ends in the list of its points.
+std::vector<std::int64_t> ends(Eigen::Index cells, std::int64_t size) {
+  std::vector<std::int64_t> out;
+  for (std::int64_t c = 1; c <= cells; ++c) out.push_back(size * c);
+  return out;
 }
 
 }  // namespace
@@ -78,12 +81,11 @@ HexMesh hexMeshOf(const retraction::Model& model, const retraction::Result* resu
   NamedArray E{"E_kPa", Eigen::MatrixXd(1, mesh.cellCount())};
   // A flipped grid would turn the cells inside out: then top and bottom change places.
   const bool flipped = model.youngs_kPa.grid.direction.determinant() < 0.0;
-  const std::array<int, 8> order = flipped ? std::array<int, 8>{4, 5, 7, 6, 0, 1, 3, 2}
-                                           : std::array<int, 8>{0, 1, 3, 2, 4, 5, 7, 6};
+  const std::array<int, 8> order =
+      flipped ? std::array<int, 8>{4, 5, 7, 6, 0, 1, 3, 2} : std::array<int, 8>{0, 1, 3, 2, 4, 5, 7, 6};
   for (int c = 0; c < mesh.cellCount(); ++c) {
     const std::array<int, 8> nodes = mesh.nodesOf(c);
-    for (int a = 0; a < 8; ++a)
-      out.hexes(a, c) = nodes[static_cast<std::size_t>(order[static_cast<std::size_t>(a)])];
+    for (int a = 0; a < 8; ++a) out.hexes(a, c) = nodes[static_cast<std::size_t>(order[static_cast<std::size_t>(a)])];
     E.values(0, c) = static_cast<double>(model.youngs_kPa.at(mesh.cellOf(c)));
   }
   out.cellArrays.push_back(std::move(E));
@@ -129,7 +131,9 @@ Eigen::Matrix3Xd displacementsNear(const retraction::Model& model, const retract
         for (int j = std::max(0, at.y() - reach); j <= std::min(g.size.y() - 1, at.y() + reach); ++j)
           for (int i = std::max(0, at.x() - reach); i <= std::min(g.size.x() - 1, at.x() + reach); ++i) {
             if (model.youngs_kPa.at(i, j, k) == 0.0f) continue;
-            const double d = (g.indexToLps({double(i), double(j), double(k)}) - list[n]).squaredNorm();
+            const double d =
+                (g.indexToLps({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}) - list[n])
+                    .squaredNorm();
             if (nearest >= 0.0 && d >= nearest) continue;
             nearest = d;
             out.col(column) = result.u_mm.at(i, j, k).cast<double>();
@@ -139,35 +143,35 @@ Eigen::Matrix3Xd displacementsNear(const retraction::Model& model, const retract
 }
 
 void writeVtu(const std::filesystem::path& file, const HexMesh& mesh) {
-  vtkNew<vtkUnstructuredGrid> grid;
-  grid->SetPoints(pointsOf(mesh.nodes_lps_mm));
-  grid->Allocate(mesh.hexes.cols());
-  for (Eigen::Index c = 0; c < mesh.hexes.cols(); ++c) {
-    vtkIdType ids[8];
-    for (Eigen::Index a = 0; a < 8; ++a) ids[a] = mesh.hexes(a, c);
-    grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
-  }
-  addArrays(grid->GetPointData(), mesh.pointArrays, mesh.nodes_lps_mm.cols());
-  addArrays(grid->GetCellData(), mesh.cellArrays, mesh.hexes.cols());
-  describe(grid);
-  vtkNew<vtkXMLUnstructuredGridWriter> writer;
-  write(writer.Get(), grid, file);
+  VtkXml xml("UnstructuredGrid");
+  const Eigen::Index points = mesh.nodes_lps_mm.cols(), cells = mesh.hexes.cols();
+  xml.line("<Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfCells=\"" + std::to_string(cells) + "\">");
+  xml.arrays("PointData", mesh.pointArrays, points);
+  xml.arrays("CellData", mesh.cellArrays, cells);
+  xml.points(mesh.nodes_lps_mm);
+  xml.line("<Cells>");
+  xml.array("Int64", "connectivity", 1,
+            std::vector<std::int64_t>(mesh.hexes.data(), mesh.hexes.data() + mesh.hexes.size()));
+  xml.array("Int64", "offsets", 1, ends(cells, 8));
+  constexpr std::uint8_t hexahedron = 12;
+  xml.array("UInt8", "types", 1, std::vector<std::uint8_t>(static_cast<std::size_t>(cells), hexahedron));
+  xml.line("</Cells>\n</Piece>");
+  writeTextFile(file, xml.text());
 }
 
 void writeVtp(const std::filesystem::path& file, const anatomy::TriangleMesh& mesh,
               const std::vector<NamedArray>& pointArrays) {
-  vtkNew<vtkPolyData> surface;
-  surface->SetPoints(pointsOf(mesh.vertices_lps_mm));
-  vtkNew<vtkCellArray> triangles;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    const vtkIdType ids[3] = {mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
-    triangles->InsertNextCell(3, ids);
-  }
-  surface->SetPolys(triangles);
-  addArrays(surface->GetPointData(), pointArrays, mesh.vertices_lps_mm.cols());
-  describe(surface);
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  write(writer.Get(), surface, file);
+  VtkXml xml("PolyData");
+  const Eigen::Index points = mesh.vertices_lps_mm.cols(), cells = mesh.triangles.cols();
+  xml.line("<Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfPolys=\"" + std::to_string(cells) + "\">");
+  xml.arrays("PointData", pointArrays, points);
+  xml.points(mesh.vertices_lps_mm);
+  xml.line("<Polys>");
+  xml.array("Int64", "connectivity", 1,
+            std::vector<std::int64_t>(mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size()));
+  xml.array("Int64", "offsets", 1, ends(cells, 3));
+  xml.line("</Polys>\n</Piece>");
+  writeTextFile(file, xml.text());
 }
 
 void writePvd(const std::filesystem::path& file, const std::vector<std::pair<double, std::string>>& timeAndFile) {
@@ -175,8 +179,9 @@ void writePvd(const std::filesystem::path& file, const std::vector<std::pair<dou
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
       "  <Collection>\n";
   for (const auto& [time_s, name] : timeAndFile)
-    xml += "    <DataSet timestep=\"" + number(time_s) + "\" group=\"\" part=\"0\" file=\"" + xmlEscaped(name) + "\"/>\n";
-  writeBytes(file, xml + "  </Collection>\n</VTKFile>\n");
+    xml += "    <DataSet timestep=\"" + shortest(time_s) + "\" group=\"\" part=\"0\" file=\"" + xmlEscaped(name) +
+           "\"/>\n";
+  writeTextFile(file, xml + "  </Collection>\n</VTKFile>\n");
 }
 
 }  // namespace glisson::exchange

@@ -36,7 +36,7 @@ Eigen::Matrix3Xd displacementsNear(const retraction::Model& model, const retract
                                    const Eigen::Matrix3Xd& points_lps_mm);
 
 /// Writes a VTK XML file (.vtu, .vtp): points in LPS mm with field data SPACE = LPS, as 3D Slicer and ParaView read it;
-/// binary, compressed; the same input gives the same bytes. Throws BadArgument where an array has another length,
+/// numbers appended raw; the same input gives the same bytes. Throws BadArgument where an array has another length,
 /// BadInput where the file cannot be written.
 void writeVtu(const std::filesystem::path& file, const HexMesh& mesh);
 void writeVtp(const std::filesystem::path& file, const anatomy::TriangleMesh& mesh,

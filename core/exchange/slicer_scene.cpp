@@ -1,6 +1,7 @@
 #include "exchange/slicer_scene.h"
 
-#include "exchange/write_text.h"
+#include "exchange/text_file.h"
+#include "exchange/xml_text.h"
 
 namespace glisson::exchange {
 namespace {
@@ -13,22 +14,28 @@ struct NodeKind {
 NodeKind kindOf(SlicerItem::Kind kind) {
   switch (kind) {
     case SlicerItem::Kind::Volume:
-      return {"Volume", "vtkMRMLScalarVolumeNode", "VolumeArchetypeStorage", "vtkMRMLVolumeArchetypeStorageNode",
-              "VolumeDisplay", "vtkMRMLScalarVolumeDisplayNode"};
+      return {"Volume",
+              "vtkMRMLScalarVolumeNode",
+              "VolumeArchetypeStorage",
+              "vtkMRMLVolumeArchetypeStorageNode",
+              "VolumeDisplay",
+              "vtkMRMLScalarVolumeDisplayNode"};
     case SlicerItem::Kind::VectorVolume:
-      return {"VectorVolume", "vtkMRMLVectorVolumeNode", "VolumeArchetypeStorage", "vtkMRMLVolumeArchetypeStorageNode",
-              "VectorVolumeDisplay", "vtkMRMLVectorVolumeDisplayNode"};
+      return {"VectorVolume",           "vtkMRMLVectorVolumeNode",
+              "VolumeArchetypeStorage", "vtkMRMLVolumeArchetypeStorageNode",
+              "VectorVolumeDisplay",    "vtkMRMLVectorVolumeDisplayNode"};
     case SlicerItem::Kind::Segmentation:
-      return {"Segmentation", "vtkMRMLSegmentationNode", "SegmentationStorage", "vtkMRMLSegmentationStorageNode",
+      return {"Segmentation",        "vtkMRMLSegmentationNode",
+              "SegmentationStorage", "vtkMRMLSegmentationStorageNode",
               "SegmentationDisplay", "vtkMRMLSegmentationDisplayNode"};
     case SlicerItem::Kind::Model:
-      return {"Model", "vtkMRMLModelNode", "ModelStorage", "vtkMRMLModelStorageNode", "ModelDisplay",
-              "vtkMRMLModelDisplayNode"};
+      return {"Model",        "vtkMRMLModelNode",       "ModelStorage", "vtkMRMLModelStorageNode",
+              "ModelDisplay", "vtkMRMLModelDisplayNode"};
     case SlicerItem::Kind::ClosedCurves:
       break;
   }
   return {"MarkupsClosedCurve", "vtkMRMLMarkupsClosedCurveNode", "MarkupsJsonStorage", "vtkMRMLMarkupsJsonStorageNode",
-          "MarkupsDisplay", "vtkMRMLMarkupsDisplayNode"};
+          "MarkupsDisplay",     "vtkMRMLMarkupsDisplayNode"};
 }
 
 }  // namespace
@@ -38,8 +45,8 @@ void writeSlicerScene(const std::filesystem::path& file, const std::vector<Slice
   int n = 0;
   for (const SlicerItem& item : items) {
     const NodeKind k = kindOf(item.kind);
-    const std::string number_ = std::to_string(++n), name = xmlEscaped(item.name);
-    const std::string storage = k.storageId + number_, display = k.displayId + number_;
+    const std::string index = std::to_string(++n), name = xmlEscaped(item.name);
+    const std::string storage = k.storageId + index, display = k.displayId + index;
     xml += std::string("  <") + k.storage + " id=\"" + storage + "\" name=\"" + name +
            " storage\" hideFromEditors=\"true\" selectable=\"true\" selected=\"false\" fileName=\"" +
            xmlEscaped(item.file) + "\" useCompression=\"1\" readState=\"0\" writeState=\"4\"";
@@ -47,14 +54,14 @@ void writeSlicerScene(const std::filesystem::path& file, const std::vector<Slice
       xml += " centerImage=\"0\" UseOrientationFromFile=\"1\"";
     if (item.kind == SlicerItem::Kind::Model) xml += " coordinateSystem=\"0\"";
     xml += std::string(" />\n  <") + k.display + " id=\"" + display + "\" name=\"" + name +
-           " display\" hideFromEditors=\"true\" selectable=\"true\" selected=\"false\" color=\"" + number(item.red) +
-           " " + number(item.green) + " " + number(item.blue) + "\" opacity=\"" + number(item.opacity) +
+           " display\" hideFromEditors=\"true\" selectable=\"true\" selected=\"false\" color=\"" + shortest(item.red) +
+           " " + shortest(item.green) + " " + shortest(item.blue) + "\" opacity=\"" + shortest(item.opacity) +
            "\" visibility=\"true\" />\n";
-    xml += std::string("  <") + k.element + " id=\"" + k.id + number_ + "\" name=\"" + name +
+    xml += std::string("  <") + k.element + " id=\"" + k.id + index + "\" name=\"" + name +
            "\" hideFromEditors=\"false\" selectable=\"true\" selected=\"false\" references=\"display:" + display +
            ";storage:" + storage + ";\" />\n";
   }
-  writeBytes(file, xml + "</MRML>\n");
+  writeTextFile(file, xml + "</MRML>\n");
 }
 
 }  // namespace glisson::exchange

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "exchange/write_text.h"
+#include "exchange/text_file.h"
 
 namespace glisson::exchange {
 namespace {
@@ -25,7 +25,7 @@ std::string tidyCsv(const std::vector<TidyRow>& rows) {
   for (const TidyRow& r : rows) {
     for (const std::string* text : {&r.caseName, &r.reader, &r.slice, &r.roi, &r.quantity, &r.statistic})
       out += cell(*text) + ",";
-    out += (std::isfinite(r.value) ? number(r.value) : std::string()) + "," + cell(r.unit) + "\r\n";
+    out += (std::isfinite(r.value) ? shortest(r.value) : std::string()) + "," + cell(r.unit) + "\r\n";
   }
   return out;
 }
