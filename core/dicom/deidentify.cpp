@@ -1,0 +1,356 @@
+#include "dicom/deidentify.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <map>
+
+#include "base/error.h"
+#include "dicom/detail/attributes.h"
+#include "dicom/detail/deidentify_actions.h"
+#include "dicom/detail/writer.h"
+#include "dicom/write_mr.h"
+
+namespace glisson::dicom {
+namespace {
+
+struct Case {
+  const ProjectKey& key;
+  const DeidentifyOptions& options;
+  std::string pseudonym;
+  int shift_days = 0;
+  std::string description;  ///< for SeriesDescription, words of our own
+  int structures = 0;
+};
+
+std::string mappedUid(const ProjectKey& key, const std::string& old) {
+  return uidFrom("de-identified/" + keyedDigest(key, "uid/" + old));
+}
+
+/// A date of the Gregorian calendar moved by days; empty where it is none.
+std::string shiftedDate(const std::string& date, int days) {
+  if (date.size() < 8 || date.find_first_not_of("0123456789") < 8) return {};
+  using namespace std::chrono;
+  const year_month_day old(year(std::stoi(date.substr(0, 4))),
+                           month(static_cast<unsigned>(std::stoi(date.substr(4, 2)))),
+                           day(static_cast<unsigned>(std::stoi(date.substr(6, 2)))));
+  if (!old.ok()) return {};
+  const year_month_day moved(sys_days(old) + std::chrono::days(days));
+  char out[16];
+  std::snprintf(out, sizeof out, "%04d%02u%02u", static_cast<int>(moved.year()), static_cast<unsigned>(moved.month()),
+                static_cast<unsigned>(moved.day()));
+  return out;
+}
+
+/// A liver is called so in every language that its outline's name is searched for; all else gets a number.
+std::string structureName(const std::string& name, int number) {
+  std::string low;
+  for (const char c : name) low += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return low.find("liver") != std::string::npos ? "liver" : "ROI " + std::to_string(number);
+}
+
+std::string dummyFor(DcmElement& element, const std::string& old, Case& c) {
+  const DcmTagKey tag(element.getGTag(), element.getETag());
+  if (tag == DCM_PatientName || tag == DCM_PatientID) return c.pseudonym;
+  if (tag == DCM_ROIName || tag == DCM_SegmentLabel || tag == DCM_TrackingID) return structureName(old, ++c.structures);
+  switch (element.ident()) {
+    case EVR_DA:
+      return "19000101";
+    case EVR_TM:
+      return "000000";
+    case EVR_DT:
+      return "19000101000000";
+    default:
+      return "REMOVED";
+  }
+}
+
+/// The words of a description that say how an image was made; all other words go.
+std::string knownWords(const std::string& description) {
+  static constexpr const char* known[] = {
+      "ax",     "axial",     "cor",        "coronal",      "sag",        "sagittal", "t1",    "t2",      "t1w",
+      "t2w",    "dwi",       "adc",        "mre",          "mr",         "mri",      "lava",  "vibe",    "thrive",
+      "fs",     "dixon",     "fat",        "water",        "in",         "out",      "phase", "opp",     "arterial",
+      "portal", "venous",    "delayed",    "pre",          "post",       "gd",       "liver", "abdomen", "stiffness",
+      "wave",   "magnitude", "confidence", "elastography", "elastogram", "map",      "2d",    "3d",      "pa",
+      "kpa",    "30hz",      "40hz",       "50hz",         "60hz",       "80hz",     "epi",   "gre",     "se",
+      "tse",    "fse",       "ssfse",      "haste"};
+  std::string low, out;
+  for (const char ch : description + " ") {
+    const char l = ch >= 'A' && ch <= 'Z' ? static_cast<char>(ch - 'A' + 'a') : ch;
+    if ((l >= 'a' && l <= 'z') || (l >= '0' && l <= '9')) {
+      low += l;
+      continue;
+    }
+    if (std::any_of(std::begin(known), std::end(known), [&](const char* k) { return low == k; }))
+      out += (out.empty() ? "" : " ") + low;
+    low.clear();
+  }
+  return out.substr(0, 64);
+}
+
+void clean(DcmItem& item, Case& c, int depth);
+
+void setText(DcmItem& item, const DcmTagKey& tag, const std::string& value) {
+  Writer(item).text(tag, value);
+}
+
+void treat(DcmItem& item, DcmElement& element, Case& c, int depth) {
+  const DcmTagKey tag(element.getGTag(), element.getETag());
+  switch (actionFor(element)) {
+    case Action::Keep:
+      return;
+    case Action::Remove:
+      item.findAndDeleteElement(tag);
+      return;
+    case Action::Empty:
+      Writer::check(item.insertEmptyElement(tag, OFTrue), tag);
+      return;
+    case Action::Dummy:
+      setText(item, tag, dummyFor(element, shownText(item, tag), c));
+      return;
+    case Action::Uid: {
+      const std::string old = text(item, tag);
+      std::string all;
+      for (std::size_t begin = 0; begin <= old.size() && !old.empty();) {
+        const std::size_t end = std::min(old.find('\\', begin), old.size());
+        all += (all.empty() ? "" : "\\") + mappedUid(c.key, old.substr(begin, end - begin));
+        begin = end + 1;
+      }
+      setText(item, tag, all);
+      return;
+    }
+    case Action::Date: {
+      const std::string moved = c.options.shiftDates ? shiftedDate(text(item, tag), c.shift_days) : std::string();
+      const bool typed = tag == DCM_ContentDate;  // Type 1 in most objects
+      setText(item, tag, !moved.empty() ? moved : typed ? "19000101" : "");
+      return;
+    }
+    case Action::Characteristic:
+      if (c.options.keepCharacteristics) return;
+      if (tag == DCM_PatientSex)
+        setText(item, tag, "");
+      else
+        item.findAndDeleteElement(tag);
+      return;
+    case Action::Descend: {
+      auto* sequence = dynamic_cast<DcmSequenceOfItems*>(&element);
+      if (sequence == nullptr || depth > 64) {
+        item.findAndDeleteElement(tag);
+        return;
+      }
+      for (DcmObject* o = sequence->nextInContainer(nullptr); o != nullptr; o = sequence->nextInContainer(o))
+        clean(*static_cast<DcmItem*>(o), c, depth + 1);
+      return;
+    }
+  }
+}
+
+/// Codes of private schemes may say anything: their meaning goes.
+void cleanCode(DcmItem& item) {
+  const std::string scheme = text(item, DCM_CodingSchemeDesignator);
+  if (scheme.empty()) return;
+  static const char* known[] = {"DCM", "SCT", "SRT", "SNM3", "UCUM", "LN", "RFC5646", "FMA", "NCIt", "99GLISSON"};
+  if (std::any_of(std::begin(known), std::end(known), [&](const char* k) { return scheme == k; })) return;
+  setText(item, DCM_CodeValue, "REMOVED");
+  setText(item, DCM_CodingSchemeDesignator, "99REMOVED");
+  setText(item, DCM_CodeMeaning, "REMOVED");
+}
+
+void clean(DcmItem& item, Case& c, int depth) {
+  std::vector<DcmTagKey> tags;
+  for (DcmObject* o = item.nextInContainer(nullptr); o != nullptr; o = item.nextInContainer(o))
+    tags.emplace_back(o->getGTag(), o->getETag());
+  std::vector<DcmTagKey> safe;  // private attributes that stay, and the creators of their blocks
+  for (const DcmTagKey& tag : tags) {
+    if ((tag.getGroup() & 1U) == 0 || tag.getElement() < 0x1000) continue;
+    const DcmTagKey creator(tag.getGroup(), static_cast<Uint16>(tag.getElement() >> 8));
+    const std::string value = text(item, tag);
+    // Names of sequences and numbers are in lower case; names of people are not.
+    const bool plain =
+        value.size() <= 32 && value.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.-\\") == std::string::npos;
+    if (depth == 0 && plain && isSafePrivate(text(item, creator), tag)) {
+      safe.push_back(tag);
+      safe.push_back(creator);
+    }
+  }
+  for (const DcmTagKey& tag : tags) {
+    if (std::find(safe.begin(), safe.end(), tag) != safe.end()) continue;
+    DcmElement* element = nullptr;
+    if (item.findAndGetElement(tag, element).good() && element != nullptr) treat(item, *element, c, depth);
+  }
+  cleanCode(item);
+}
+
+void declare(DcmDataset& data, const Case& c) {
+  Writer w(data);
+  w.text(DCM_PatientIdentityRemoved, "YES");
+  w.text(DCM_DeidentificationMethod, "Glisson: PS3.15 basic profile, stricter on free text");
+  data.findAndDeleteElement(DCM_DeidentificationMethodCodeSequence);
+  w.code(DCM_DeidentificationMethodCodeSequence, {"113100", "DCM", "Basic Application Confidentiality Profile"});
+  w.code(DCM_DeidentificationMethodCodeSequence, {"113104", "DCM", "Clean Structured Content Option"});
+  w.code(DCM_DeidentificationMethodCodeSequence, {"113111", "DCM", "Retain Safe Private Option"});
+  if (c.options.cleanDescriptors)
+    w.code(DCM_DeidentificationMethodCodeSequence, {"113105", "DCM", "Clean Descriptors Option"});
+  if (c.options.shiftDates)
+    w.code(DCM_DeidentificationMethodCodeSequence,
+           {"113107", "DCM", "Retain Longitudinal Temporal Information Modified Dates Option"});
+  if (c.options.keepCharacteristics)
+    w.code(DCM_DeidentificationMethodCodeSequence, {"113108", "DCM", "Retain Patient Characteristics Option"});
+  w.text(DCM_LongitudinalTemporalInformationModified, c.options.shiftDates ? "MODIFIED" : "REMOVED");
+  if (!c.description.empty()) w.text(DCM_SeriesDescription, c.description);
+  w.text(DCM_SpecificCharacterSet, "ISO_IR 192");
+}
+
+/// Why the pixels may show who the patient is; empty where nothing says so.
+std::string pixelRisk(DcmDataset& data) {
+  const std::string burned = text(data, DCM_BurnedInAnnotation), sopClass = text(data, DCM_SOPClassUID);
+  if (burned == "YES") return "says that patient data are burned into its pixels";
+  if (text(data, DCM_RecognizableVisualFeatures) == "YES")
+    return "says that the patient can be recognised in its pixels";
+  if (data.tagExists(DCM_EncapsulatedDocument)) return "holds an encapsulated document, which cannot be cleaned";
+  if (burned == "NO") return {};
+  const std::string type = text(data, DCM_ImageType);
+  const bool captured = data.tagExists(DCM_ConversionType) || sopClass == UID_SecondaryCaptureImageStorage ||
+                        type.find("SCREEN SAVE") != std::string::npos || text(data, DCM_Modality) == "OT";
+  const bool colour = count(data, DCM_SamplesPerPixel).value_or(1) > 1;
+  if (captured || colour) return "is a picture whose pixels may show who the patient is (no BurnedInAnnotation NO)";
+  return {};
+}
+
+/// Words for what a series is; read again by setRoles.
+std::string describe(const Series& s) {
+  std::string words = s.role == SeriesRole::Other ? "" : "MR " + name(s.role);
+  if (s.role == SeriesRole::Stiffness) words = "MRE stiffness" + (s.unit ? " (" + *s.unit + ")" : std::string());
+  if (s.role == SeriesRole::Wave) words = "MRE wave";
+  if (s.role == SeriesRole::Magnitude) words = "MRE magnitude";
+  if (s.role == SeriesRole::Confidence) words = "MRE confidence";
+  return words;
+}
+
+std::string shortElement(std::uint16_t element, const char* vr, std::string value) {
+  if (value.size() % 2 != 0) value += '\0';  // UIDs and raw bytes are padded with a zero
+  const auto low = [](std::size_t v) {
+    return std::string{static_cast<char>(v & 0xFF), static_cast<char>(v >> 8 & 0xFF)};
+  };
+  return low(0x0002) + low(element) + vr + low(value.size()) + value;
+}
+
+/// Preamble and file meta information; nothing of the source's but its transfer syntax.
+std::string metaInformation(const std::string& sopClass, const std::string& sopInstance, const std::string& syntax) {
+  const std::string version = std::string("\x02\x00\x01\x00OB\x00\x00\x02\x00\x00\x00\x00\x01", 14);
+  const std::string body = version + shortElement(0x0002, "UI", sopClass) + shortElement(0x0003, "UI", sopInstance) +
+                           shortElement(0x0010, "UI", syntax) +
+                           shortElement(0x0012, "UI", uidFrom("glisson/implementation"));
+  std::string length;
+  for (int n = 0; n < 4; ++n) length += static_cast<char>(body.size() >> (8 * n) & 0xFF);
+  return std::string(128, '\0') + "DICM" + shortElement(0x0000, "UL", length) + body;
+}
+
+/// Where the bytes of the pixel element end.
+std::uint64_t endOfPixels(const FileLayout& layout) {
+  if (!layout.pixels) return layout.headerEnd;
+  const PixelElement& p = *layout.pixels;
+  if (!p.encapsulated) return p.offset + p.length;
+  if (p.fragments.empty()) throw BadInput("has compressed pixels without any code stream");
+  return p.fragments.back().offset + p.fragments.back().length + 8;  // sequence delimiter
+}
+
+/// Header through DCMTK, pixels as they lie in the source, at the source's transfer syntax (inflated where deflated).
+void save(DcmDataset& data, const ByteSource& source, const FileLayout& layout, const std::filesystem::path& file) {
+  const E_TransferSyntax written = layout.bigEndian    ? EXS_BigEndianExplicit
+                                   : layout.explicitVr ? EXS_LittleEndianExplicit
+                                                       : EXS_LittleEndianImplicit;
+  const bool compressed = layout.pixels && layout.pixels->encapsulated;
+  const std::string syntax = compressed ? layout.transferSyntax : DcmXfer(written).getXferID();
+  const std::uint64_t end = endOfPixels(layout);
+  const auto header = file.parent_path() / ("." + file.filename().string() + ".header");
+  const auto temporary = file.parent_path() / ("." + file.filename().string() + ".part");
+  bool good = data.saveFile(header.c_str(), written, EET_ExplicitLength).good();
+  if (good) {
+    std::ifstream from(header, std::ios::binary);
+    std::ofstream to(temporary, std::ios::binary);
+    to << metaInformation(text(data, DCM_SOPClassUID), text(data, DCM_SOPInstanceUID), syntax) << from.rdbuf();
+    for (std::uint64_t at = layout.headerEnd; at < end;) {
+      const std::uint64_t part = std::min<std::uint64_t>(end - at, 1U << 20);
+      const std::vector<std::uint8_t> bytes = source.bytes(at, part);
+      to.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+      at += part;
+    }
+    to.flush();
+    good = static_cast<bool>(to) && static_cast<bool>(from);
+  }
+  std::error_code failed;
+  std::filesystem::remove(header, failed);
+  if (good) std::filesystem::rename(temporary, file, failed);
+  if (good && !failed) return;
+  std::filesystem::remove(temporary, failed);
+  throw Error("a de-identified file cannot be written; is the folder writable, and the disk not full?");
+}
+
+}  // namespace
+
+DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesystem::path& out, const ProjectKey& key,
+                            const DeidentifyOptions& options, const Progress& progress) {
+  if (!std::filesystem::exists(in)) throw BadInput("there is nothing at the folder to de-identify");
+  if (std::filesystem::exists(out) && !std::filesystem::is_empty(out))
+    throw BadInput("the output folder is not empty; give a new one, so that nothing old is taken for de-identified");
+  const ScanResult scanned = scan(in, progress.part(0.0, 0.3));
+  std::map<std::string, std::string> descriptions;  // by SeriesInstanceUID
+  for (const Series& s : scanned.series) descriptions.try_emplace(seriesInstanceUid(s), describe(s));
+
+  std::vector<std::filesystem::path> files;
+  if (std::filesystem::is_regular_file(in)) {
+    files.push_back(in);
+  } else {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(in))
+      if (!entry.is_symlink() && entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  DeidentifyResult result;
+  std::filesystem::create_directories(out);
+  for (std::size_t n = 0; n < files.size(); ++n) {
+    progress.part(0.3, 1.0).report(static_cast<double>(n) / static_cast<double>(files.size()), "de-identifying");
+    try {
+      ByteSource source(files[n]);
+      const FileLayout layout = readLayout(source);
+      DcmDataset data;
+      parseHeader(source, layout, data);
+      if (text(data, DCM_SOPClassUID) == UID_MediaStorageDirectoryStorage ||
+          data.tagExists(DCM_DirectoryRecordSequence))
+        throw BadInput("is a directory of files (DICOMDIR), which names the patient");
+      if (text(data, DCM_SOPInstanceUID).empty()) throw BadInput("has no SOP Instance UID");
+      if (const std::string risk = pixelRisk(data); !risk.empty()) throw BadInput(risk);
+      const std::string patient =
+          keyedDigest(key, "patient/" + text(data, DCM_PatientID) + "/" + text(data, DCM_IssuerOfPatientID) +
+                               (text(data, DCM_PatientID).empty() ? text(data, DCM_PatientName) : std::string()));
+      Case c{key, options, "G-" + patient.substr(0, 12), 0, {}, 0};
+      c.shift_days = -1 - static_cast<int>(std::stoul(patient.substr(12, 6), nullptr, 16) % 3650);
+      const std::string study = options.cleanDescriptors ? knownWords(text(data, DCM_StudyDescription)) : std::string();
+      const auto words = descriptions.find(text(data, DCM_SeriesInstanceUID));
+      if (words != descriptions.end()) c.description = words->second;
+      if (c.description.empty() && options.cleanDescriptors)
+        c.description = knownWords(text(data, DCM_SeriesDescription));
+      if (c.description.empty() && text(data, DCM_Manufacturer) == "Glisson")
+        c.description = "RESEARCH " + text(data, DCM_Modality);
+      clean(data, c, 0);
+      declare(data, c);
+      if (!study.empty()) setText(data, DCM_StudyDescription, study);
+      const auto folder = out / c.pseudonym / text(data, DCM_SeriesInstanceUID).substr(5, 16);
+      std::filesystem::create_directories(folder);
+      const auto file = folder / (text(data, DCM_SOPInstanceUID).substr(5, 24) + ".dcm");
+      if (std::filesystem::exists(file)) throw BadInput("has the SOP Instance UID of another file");
+      save(data, source, layout, file);
+      result.files.push_back(file);
+    } catch (const BadInput& e) {
+      result.leftOut.push_back({files[n], e.what()});
+    }
+  }
+  result.notes.push_back("PS3.15 basic profile; free text, names and dates beyond it are removed too");
+  if (!result.leftOut.empty())
+    result.notes.push_back(std::to_string(result.leftOut.size()) + " files were left out, each with its reason");
+  progress.report(1.0, "de-identified");
+  return result;
+}
+
+}  // namespace glisson::dicom
