@@ -53,7 +53,8 @@ StructureContour readContour(DcmItem& item, const std::string& where, std::vecto
   return contour;
 }
 
-void readReferences(DcmDataset& data, StructureSet& set) {
+/// Listed: the images that the set says it was drawn on.
+void readReferences(DcmDataset& data, StructureSet& set, std::set<std::string>& listed) {
   forItems(data, DCM_ReferencedFrameOfReferenceSequence, [&](DcmItem& frame) {
     if (set.frameOfReferenceUid.empty()) set.frameOfReferenceUid = shownText(frame, DCM_FrameOfReferenceUID);
     forItems(frame, DCM_RTReferencedStudySequence, [&](DcmItem& study) {
@@ -63,16 +64,40 @@ void readReferences(DcmDataset& data, StructureSet& set) {
           set.referencedSeriesUid = uid;
         else if (set.referencedSeriesUid != uid)
           set.warnings.push_back("refers to several image series; the first one is taken");
+        forItems(series, DCM_ContourImageSequence,
+                 [&](DcmItem& image) { listed.insert(shownText(image, DCM_ReferencedSOPInstanceUID)); });
       });
     });
   });
+}
+
+/// What is wrong with the references; contours are placed by their coordinates all the same.
+void checkReferences(const std::set<std::string>& listed, StructureSet& set) {
+  std::size_t contours = 0, without = 0, elsewhere = 0;
+  for (const Structure& s : set.structures)
+    for (const StructureContour& c : s.contours) {
+      ++contours;
+      if (c.referencedSopInstanceUid.empty())
+        ++without;
+      else if (!listed.empty() && listed.count(c.referencedSopInstanceUid) == 0)
+        ++elsewhere;
+    }
+  const auto say = [&](std::size_t many, const char* what) {
+    if (many > 0)
+      set.warnings.push_back(std::to_string(many) + " of " + std::to_string(contours) + " contours " + what +
+                             "; they are placed by their coordinates");
+  };
+  if (set.referencedSeriesUid.empty()) set.warnings.push_back("names no image series that it was drawn on");
+  say(elsewhere, "refer to images that are not among those the structure set lists");
+  if (without < contours) say(without, "name no image");
 }
 
 StructureSet readData(DcmDataset& data) {
   StructureSet set;
   if (text(data, DCM_SOPClassUID) != UID_RTStructureSetStorage && text(data, DCM_Modality) != "RTSTRUCT")
     throw BadInput("is no RT Structure Set (modality '" + shownText(data, DCM_Modality) + "')");
-  readReferences(data, set);
+  std::set<std::string> listed;
+  readReferences(data, set, listed);
   std::map<int, std::size_t> byNumber;
   std::set<std::string> frames;
   forItems(data, DCM_StructureSetROISequence, [&](DcmItem& item) {
@@ -117,6 +142,7 @@ StructureSet readData(DcmDataset& data) {
     if (tooShort > 0)
       set.warnings.push_back(roi + ": " + std::to_string(tooShort) + " contour(s) of fewer than 3 points are left out");
   });
+  checkReferences(listed, set);
   return set;
 }
 
