@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "image/distance.h"
 #include "image/morphology.h"
 
 namespace glisson::elastography {
@@ -31,7 +32,80 @@ void warn(Measurement& m) {
   }
 }
 
+image::Mask innerRegion(const image::Mask& roi, const MeasureOptions& options) {
+  if (!(options.erosion_mm >= 0.0 && std::isfinite(options.erosion_mm)))
+    throw BadArgument("an erosion must not be negative");
+  image::Mask region = options.erosion_pixels > 0 ? image::erodeInPlane(roi, options.erosion_pixels) : roi;
+  if (options.erosion_mm > 0.0 && image::count(region) > 0) {
+    const image::ScalarVolume depth_mm = image::distanceToOutline_mm(roi);
+    for (std::size_t v = 0; v < region.values.size(); ++v)
+      if (static_cast<double>(depth_mm.values[v]) <= options.erosion_mm) region.values[v] = 0;
+  }
+  if (options.exclude == nullptr) return region;
+  if (!options.exclude->grid.sameGeometry(roi.grid))
+    throw BadInput("what is to be excluded lies on another grid than the region of interest");
+  for (std::size_t v = 0; v < region.values.size(); ++v)
+    if (options.exclude->values[v] != 0) region.values[v] = 0;
+  return region;
+}
+
+/// Autocorrelation of the deviations at one in-plane shift.
+double correlation(const image::Grid& grid, const std::vector<double>& deviation, const image::Mask& counts,
+                   double variance, int di, int dj) {
+  double sum = 0.0;
+  std::size_t pairs = 0;
+  for (int k = 0; k < grid.size.z(); ++k)
+    for (int j = std::max(0, -dj); j < std::min(grid.size.y(), grid.size.y() - dj); ++j)
+      for (int i = std::max(0, -di); i < std::min(grid.size.x(), grid.size.x() - di); ++i) {
+        const std::size_t a = grid.linear(i, j, k), b = grid.linear(i + di, j + dj, k);
+        if (counts.values[a] == 0 || counts.values[b] == 0) continue;
+        sum += deviation[a] * deviation[b];
+        ++pairs;
+      }
+  return pairs < 8 ? 0.0 : sum / static_cast<double>(pairs) / variance;
+}
+
 }  // namespace
+
+MeanUncertainty meanUncertainty(const image::ScalarVolume& values_kPa, const image::Mask& counts) {
+  const image::Grid& grid = values_kPa.grid;
+  if (!counts.grid.sameGeometry(grid)) throw BadArgument("meanUncertainty: the mask lies on another grid");
+  double n = 0.0, mean = 0.0, squares = 0.0;
+  for (std::size_t v = 0; v < counts.values.size(); ++v)
+    if (counts.values[v] != 0) {
+      n += 1.0;
+      mean += static_cast<double>(values_kPa.values[v]);
+    }
+  MeanUncertainty u;
+  u.se_kPa = u.low_kPa = u.high_kPa = std::numeric_limits<double>::quiet_NaN();
+  if (n < 2.0) return u;
+  mean /= n;
+  std::vector<double> deviation(counts.values.size(), 0.0);
+  for (std::size_t v = 0; v < counts.values.size(); ++v)
+    if (counts.values[v] != 0) {
+      deviation[v] = static_cast<double>(values_kPa.values[v]) - mean;
+      squares += deviation[v] * deviation[v];
+    }
+  if (squares > 0.0) {
+    // Square shells of shifts; both ways of a shift are alike, so half of each shell is looked at.
+    constexpr int mostShells = 12;
+    for (int shell = 1; shell <= mostShells; ++shell) {
+      double sum = 0.0;
+      for (int dj = 0; dj <= shell; ++dj)
+        for (int di = -shell; di <= shell; ++di) {
+          if (std::max(dj, std::abs(di)) != shell || (dj == 0 && di < 0)) continue;
+          sum += 2.0 * correlation(grid, deviation, counts, squares / n, di, dj);
+        }
+      if (sum < 0.1 * 8.0 * shell) break;
+      u.correlatedVoxels += sum;
+    }
+    u.correlatedVoxels = std::clamp(u.correlatedVoxels, 1.0, n);
+  }
+  u.se_kPa = std::sqrt(squares / (n - 1.0) * u.correlatedVoxels / n);
+  u.low_kPa = mean - 1.96 * u.se_kPa;
+  u.high_kPa = mean + 1.96 * u.se_kPa;
+  return u;
+}
 
 Statistics statisticsOf(std::vector<double> values_kPa, double voxelArea_mm2) {
   Statistics s;
@@ -65,7 +139,8 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
                    "; it must lie above -1 and at most at 0.5");
   const std::size_t drawn = image::count(roi);
   if (drawn == 0) throw BadInput("the region of interest holds no voxel of the stiffness map");
-  const image::Mask region = options.erosion_pixels > 0 ? image::erodeInPlane(roi, options.erosion_pixels) : roi;
+  const image::Mask region = innerRegion(roi, options);
+  image::Mask counts(grid);
 
   Measurement m;
   m.quantity = map.quantity;
@@ -90,6 +165,7 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
         ++m.lowConfidence;
       } else {
         slice.push_back(static_cast<double>(value));
+        counts.values[v] = 1;
       }
     }
     if (inSlice == 0) continue;
@@ -103,9 +179,13 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
       weights += s.area_mm2;
     }
   }
-  if (before == 0)
-    throw BadInput("the inner region of interest is empty: an erosion by " + std::to_string(options.erosion_pixels) +
-                   " pixels removes all " + std::to_string(drawn) + " voxels; take a smaller erosion");
+  if (before == 0) {
+    std::ostringstream why;
+    why << "the inner region of interest is empty: an erosion by " << options.erosion_pixels << " pixels and "
+        << options.erosion_mm << " mm" << (options.exclude != nullptr ? " and what is excluded" : "") << " remove all "
+        << drawn << " voxels; take a smaller erosion";
+    throw BadInput(why.str());
+  }
   if (all.empty())
     throw BadInput("no voxel of the region of interest can be used: of " + std::to_string(before) + " voxels " +
                    std::to_string(m.lowConfidence) + " lie below the confidence, " + std::to_string(m.notPositive) +
@@ -113,6 +193,7 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
                    " are not finite; check the region, or lower the confidence threshold");
   m.pooled = statisticsOf(std::move(all), voxelArea_mm2);
   m.pooled.n_before_mask = before;
+  m.uncertainty = meanUncertainty(map.values_kPa, counts);
   m.areaWeightedMean_kPa = weighted / weights;
   const bool shear = map.quantity == StiffnessQuantity::Shear;
   const double mean_kPa = m.pooled.mean_kPa;

@@ -20,6 +20,15 @@ struct Statistics {
   double max_kPa = 0.0;
 };
 
+/// How well a mean is known. Neighbouring voxels of an elastogram share noise (the inversion pools them), so n voxels
+/// count as n / correlated only: the sum of the autocorrelation over in-plane shifts, up to the first square
+/// shell of shifts whose mean correlation is below 0.1.
+struct MeanUncertainty {
+  double correlatedVoxels = 1.0;         ///< ≥ 1
+  double se_kPa = 0.0;                   ///< SD √(correlated / n); not-a-number for fewer than two voxels
+  double low_kPa = 0.0, high_kPa = 0.0;  ///< mean ± 1.96 se
+};
+
 struct SliceStatistics {
   int slice = 0;  ///< k index of the map
   Statistics statistics;
@@ -28,12 +37,15 @@ struct SliceStatistics {
 struct MeasureOptions {
   double confidenceThreshold = defaults::confidenceThreshold;  ///< of 1; 0 takes every voxel
   int erosion_pixels = 0;                                      ///< inner region of interest, in each slice
-  double poisson = defaults::poisson;                          ///< for the conversion to the other modulus
+  double erosion_mm = 0.0;               ///< the same in millimetres from the outline; both may be given
+  const image::Mask* exclude = nullptr;  ///< voxels to leave out (large vessels), on the map's grid; not eroded
+  double poisson = defaults::poisson;    ///< for the conversion to the other modulus
 };
 
 struct Measurement {
   StiffnessQuantity quantity = StiffnessQuantity::Shear;  ///< of every *_kPa below but youngs and shear
   Statistics pooled;
+  MeanUncertainty uncertainty;          ///< of the pooled mean
   std::vector<SliceStatistics> slices;  ///< slices with region-of-interest voxels, in order of k
   double areaWeightedMean_kPa = 0.0;    ///< Σ (mean_i area_i) / Σ area_i over slices
   double youngs_mean_kPa = 0.0;         ///< pooled mean as E = 2 (1 + ν) µ
@@ -49,6 +61,9 @@ struct Measurement {
 /// Throws BadInput where the mask is on another grid, empty, empty after erosion, or no voxel is left (with the
 /// counts).
 Measurement measure(const StiffnessMap& map, const image::Mask& roi, const MeasureOptions& options = {});
+
+/// Of the mean over the voxels of counts, a mask on the map's grid.
+MeanUncertainty meanUncertainty(const image::ScalarVolume& values_kPa, const image::Mask& counts);
 
 /// Statistics of plain values, kPa; voxelArea_mm2 scales the area.
 Statistics statisticsOf(std::vector<double> values_kPa, double voxelArea_mm2);
