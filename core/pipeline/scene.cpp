@@ -1,5 +1,6 @@
 #include "pipeline/scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -231,7 +232,20 @@ retraction::ModelSpec readModel(JsonObject o) {
                                  : mechanics::HexElement::Incompatible;
   } else {
     m.kind = retraction::ModelKind::FemTet;
-    m.quadraticTets = o.word("element", {"T4", "T10"}, "T10") == "T10";
+    if (o.has("order")) {
+      if (o.has("element")) o.fail("order", "says the same as \"element\"; keep one of the two");
+      const int order = o.integer("order", 2);
+      if (order != 1 && order != 2) o.fail("order", "must be 1 (four nodes) or 2 (ten)");
+      m.quadraticTets = order == 2;
+    } else {
+      m.quadraticTets = o.word("element", {"T4", "T10"}, "T10") == "T10";
+    }
+    m.delaunay = o.word("mesh", {"voxels", "delaunay"}, "voxels") == "delaunay";
+    if (m.delaunay) {
+      m.cell_mm = positive(o, "cell_mm", o.number("cell_mm", m.cell_mm));
+      m.toolCell_mm = positive(o, "tool_cell_mm", o.number("tool_cell_mm", std::min(m.cell_mm, m.toolCell_mm)));
+      if (m.toolCell_mm > m.cell_mm) o.fail("tool_cell_mm", "must not be larger than cell_mm");
+    }
   }
   o.finish();
   return m;
@@ -346,6 +360,10 @@ Scene parseScene(const std::string& text, const std::filesystem::path& folder) {
   if (o.has("loads"))
     for (JsonObject& item : o.objects("loads")) s.setup.loads.push_back(readLoad(item, folder));
   if (o.has("model")) s.setup.model = readModel(o.object("model"));
+  if (s.setup.model.delaunay && s.geometry.kind == GeometrySpec::Kind::Box)
+    o.fail("model",
+           "asks for Delaunay tetrahedra, which follow smooth organs and would round the edges of a box: use "
+           "\"mesh\": \"voxels\"");
   const std::string kinematics = o.word("kinematics", {"linear", "corotational", "hyperelastic"}, "linear");
   s.setup.kinematics = kinematics == "linear"         ? retraction::Kinematics::Linear
                        : kinematics == "corotational" ? retraction::Kinematics::Corotational

@@ -135,8 +135,15 @@ Json toJson(const retraction::ModelSpec& m) {
                        : m.meshfree.kernel == mechanics::Kernel::Mls   ? "mls"
                                                                        : "wendland"},
             {"order", m.meshfree.order}};
-  if (m.kind == retraction::ModelKind::FemTet)
-    return {{"kind", "fem-tet"}, {"element", m.quadraticTets ? "T10" : "T4"}};
+  if (m.kind == retraction::ModelKind::FemTet) {
+    Json j = {{"kind", "fem-tet"}, {"element", m.quadraticTets ? "T10" : "T4"}};
+    if (m.delaunay) {
+      j["mesh"] = "delaunay";
+      j["cell_mm"] = m.cell_mm;
+      j["tool_cell_mm"] = m.toolCell_mm;
+    }
+    return j;
+  }
   const char* element = m.element == mechanics::HexElement::H8     ? "H8"
                         : m.element == mechanics::HexElement::BBar ? "H8-Bbar"
                                                                    : "H8-incompatible";

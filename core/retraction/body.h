@@ -62,6 +62,7 @@ struct Contact {
   std::vector<double> share;  ///< adds up to 1
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
   double area_mm2 = 0.0;  ///< as seen along the hoist
+  double away_mm = 0.0;   ///< of the point given, from the middle of the nearest face that bears
 };
 
 /// The bar lies against the surface at `at_mm`, across the hoist. It pushes on the connected faces under it that look

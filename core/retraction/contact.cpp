@@ -110,6 +110,7 @@ Contact findContact(const Body& body, const Retractor& retractor, const Eigen::V
   }
 
   Contact contact;
+  contact.away_mm = nearest;
   double total = 0.0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!taken[i] || !bears(*candidates[i])) continue;

@@ -95,7 +95,15 @@ DiscretisationError discretisationError(const retraction::Model& model, const re
       requireConverged(full);
       fine = retraction::displacementAt(model, full, points);
     }
-    const retraction::Model half = coarsened(model);
+    // Tetrahedra of their own size: the same body, in cells twice as large.
+    const bool delaunay = setup.model.kind == retraction::ModelKind::FemTet && setup.model.delaunay;
+    if (delaunay) {
+      e.cell_mm = setup.model.cell_mm;
+      e.coarse_mm = 2.0 * e.cell_mm;
+      voxels.model.cell_mm *= 2.0;
+      voxels.model.toolCell_mm *= 2.0;
+    }
+    const retraction::Model half = delaunay ? model : coarsened(model);
     const retraction::Result rough = retraction::simulate(half, voxels, {}, progress.part(frames ? 0.8 : 0.0, 1.0));
     requireConverged(rough);
     const std::vector<Eigen::Vector3d> coarse = retraction::displacementAt(half, rough, points);

@@ -75,6 +75,8 @@ struct ModelSpec {
   ModelKind kind = ModelKind::FemHex;
   mechanics::HexElement element = mechanics::HexElement::Incompatible;
   bool quadraticTets = false;
+  bool delaunay = false;                     ///< tetrahedra follow the organ's smooth surface; else six per voxel
+  double cell_mm = 10.0, toolCell_mm = 4.0;  ///< Delaunay: edges of the tetrahedra, and near the retractor
   mechanics::MeshfreeOptions meshfree;
 };
 

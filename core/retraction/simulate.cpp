@@ -14,6 +14,7 @@
 #include "mechanics/tet_solve.h"
 #include "retraction/body.h"
 #include "retraction/condensed_solve.h"
+#include "retraction/delaunay_solve.h"
 
 namespace glisson::retraction {
 namespace {
@@ -92,8 +93,16 @@ void addTractions(const Body& body, const mechanics::TetMesh& mesh, const std::v
   }
 }
 
-Answer solveOnTets(const Body& body, const MechanicsScene& scene, const Setup& setup, const Progress& progress) {
+Answer solveOnTets(const Model& model, const Body& body, const MechanicsScene& scene, const Setup& setup,
+                   const Progress& progress) {
   Answer a;
+  if (setup.model.delaunay) {
+    DelaunayAnswer d = solveOnDelaunay(model, body, scene, setup, progress);
+    a.solution = std::move(d.solution);
+    a.dofs = d.dofs;
+    a.notes.push_back(std::move(d.note));
+    return a;
+  }
   const auto order = setup.model.quadraticTets ? mechanics::TetOrder::Quadratic : mechanics::TetOrder::Linear;
   mechanics::TetProblem tets = mechanics::onTetrahedra(scene.problem, order);
   tets.f_N.setZero();
@@ -109,8 +118,9 @@ Answer solveOnTets(const Body& body, const MechanicsScene& scene, const Setup& s
   return a;
 }
 
-Answer solve(const Body& body, const MechanicsScene& scene, const Setup& setup, const Progress& progress) {
-  if (setup.model.kind == ModelKind::FemTet) return solveOnTets(body, scene, setup, progress);
+Answer solve(const Model& patient, const Body& body, const MechanicsScene& scene, const Setup& setup,
+             const Progress& progress) {
+  if (setup.model.kind == ModelKind::FemTet) return solveOnTets(patient, body, scene, setup, progress);
   const mechanics::Problem& problem = scene.problem;
   Answer a;
   mechanics::SolverOptions options = setup.solver;
@@ -227,6 +237,10 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
   if (scene.contact) {
     r.retractorPoint_mm = scene.contact->centre_mm;
     r.contactArea_mm2 = scene.contact->area_mm2;
+    const double cell_mm = mToMm * body.mesh().h_m().maxCoeff();
+    if (scene.contact->away_mm > cell_mm)
+      r.notes.push_back("the retractor was laid onto the surface: its point lay " +
+                        std::to_string(std::lround(scene.contact->away_mm)) + " mm from it");
     for (const SurfaceFace* f : scene.contact->faces)
       r.contactNodes.insert(r.contactNodes.end(), f->nodes.begin(), f->nodes.end());
     std::sort(r.contactNodes.begin(), r.contactNodes.end());
@@ -247,7 +261,7 @@ Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen:
   requireOffered(setup);
   const Body body(model);
   const MechanicsScene scene = toMechanics(body, model, setup);
-  return readBack(model, body, scene, setup, solve(body, scene, setup, progress), probes_mm);
+  return readBack(model, body, scene, setup, solve(model, body, scene, setup, progress), probes_mm);
 }
 
 Result scaled(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,
