@@ -50,6 +50,9 @@ int main(int argc, char** argv) {
   addScan(app, context);
   addConvert(app, context);
   addMeasure(app, context);
+  addInvert(app, context);
+  addAgree(app, context);
+  addPropose(app, context);
   addPlan(app, context);
   addRun(app, context);
   addValidate(app, context);

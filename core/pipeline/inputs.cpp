@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "image/io.h"
+#include "pipeline/breath_hold.h"
 #include "pipeline/detail/needs.h"
 #include "pipeline/sources.h"
 
@@ -50,6 +51,7 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
   if (needs.mre) {
     progress.report(0.5, "reading the elastogram");
     LoadedStiffness mre = loadStiffness(g.mre, {}, progress.part(0.5, 0.9));
+    if (g.rigidRegistration) in.registration = fitToMri(mre, g.mre, {}, mri.volume, progress.part(0.9, 1.0));
     append(in.warnings, mre.warnings);
     if (!mri.patientKey.empty() && !mre.patientKey.empty() && mri.patientKey != mre.patientKey)
       throw BadInput("the MRI and the elastogram belong to different patients; choose two series of one patient");

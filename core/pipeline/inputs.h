@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "elastography/registration.h"
 #include "elastography/roi_mapping.h"
 #include "elastography/stiffness_map.h"
 #include "image/volume.h"
@@ -21,6 +22,7 @@ struct Inputs {
   std::optional<image::Mask> liver;                     ///< region of interest as voxels (MRI grid, or the mask's own)
   std::optional<elastography::StiffnessMap> stiffness;  ///< MRE or map, with its confidence
   std::optional<elastography::MappedRoi> roiOnMre;      ///< region of interest on the grid of the elastogram
+  std::optional<elastography::Registration> registration;  ///< of the elastogram, where the scene asks for it
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, double>> seconds;  ///< what reading took, by step of the plan
 };

@@ -58,6 +58,7 @@ GeometrySpec readGeometry(JsonObject o, const std::filesystem::path& folder) {
     if (o.has("mre")) g.mre = existing(o, "mre", folder);
     g.roi = existing(o, "roi", folder);
     g.roiName = o.text("roi_name", "");
+    g.rigidRegistration = o.word("registration", {"none", "rigid"}, "none") == "rigid";
     g.label = o.integer("label", 0);
   }
   o.finish();

@@ -20,6 +20,7 @@ struct GeometrySpec {
   std::filesystem::path background;                   ///< Mask: image to draw the overlays on; may be empty
   int label = 0;                                      ///< Mask; 0 = any non-zero
   std::filesystem::path mri, mre, roi;                ///< Patient: DICOM folder or file, volume, contours
+  bool rigidRegistration = false;  ///< Patient: elastogram laid over the MRI by its magnitude images (breath-hold)
   std::string roiName;                                ///< Patient: structure to take; empty = found by name
 };
 

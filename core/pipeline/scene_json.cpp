@@ -38,6 +38,7 @@ Json toJson(const GeometrySpec& g, const std::filesystem::path& folder) {
       if (!g.mre.empty()) j["mre"] = pathText(g.mre, folder);
       j["roi"] = pathText(g.roi, folder);
       if (!g.roiName.empty()) j["roi_name"] = g.roiName;
+      if (g.rigidRegistration) j["registration"] = "rigid";
       if (g.label != 0) j["label"] = g.label;
       break;
   }

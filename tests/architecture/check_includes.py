@@ -25,9 +25,9 @@ MAY = {
     "report": ["base"],
     "exchange": ["base", "image", "dicom", "roi", "elastography", "anatomy", "mechanics", "retraction", "comparison"],
     "phantom": ["base", "image", "dicom", "roi", "elastography", "anatomy"],
-    "pipeline": ["base", "image", "dicom", "roi", "elastography", "anatomy", "mechanics", "retraction", "comparison",
+    "pipeline": ["base", "image", "dicom", "roi", "elastography", "inversion", "anatomy", "mechanics", "retraction", "comparison",
                  "render", "report", "exchange"],
-    "study": ["base", "image", "dicom", "roi", "elastography", "anatomy", "mechanics", "retraction", "comparison",
+    "study": ["base", "image", "dicom", "roi", "elastography", "inversion", "anatomy", "mechanics", "retraction", "comparison",
               "render", "report", "exchange", "pipeline", "phantom"],
 }
 THIRD_PARTY = re.compile(r"^(vtk|itk|dcmtk/|CGAL/|Q[A-Z]|nlohmann/|tbb/|CLI/|cholmod|openssl/|libigtl)")
