@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "base/error.h"
 #include "base/sha256.h"
@@ -41,12 +42,9 @@ void describe(Writer& root, const Segment& s) {
     w.text(DCM_SegmentAlgorithmType, "MANUAL");
     w.code(DCM_SegmentedPropertyCategoryCodeSequence, codes::organ);
     w.code(DCM_SegmentedPropertyTypeCodeSequence, codes::liver);
-    for (const int v : {37000, 47000, 40000})  // CIELab of a soft red
-      Writer::check(w.item().putAndInsertUint16(DCM_RecommendedDisplayCIELabValue, static_cast<Uint16>(v),
-                                                v == 37000   ? 0
-                                                : v == 47000 ? 1
-                                                             : 2),
-                    DCM_RecommendedDisplayCIELabValue);
+    const std::array<Uint16, 3> softRed = {37000, 47000, 40000};  // CIELab
+    Writer::check(w.item().putAndInsertUint16Array(DCM_RecommendedDisplayCIELabValue, softRed.data(), 3),
+                  DCM_RecommendedDisplayCIELabValue);
     w.text(DCM_TrackingID, s.label);
     w.text(DCM_TrackingUID, uidFrom("tracking/" + s.label + "/" + sha256(s.mask.values.data(), s.mask.values.size())));
   });

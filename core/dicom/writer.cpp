@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "base/error.h"
 #include "base/version.h"
@@ -35,8 +36,10 @@ void Writer::longWord(const DcmTagKey& tag, std::uint32_t value) {
 }
 
 void Writer::longWords(const DcmTagKey& tag, const std::vector<std::uint32_t>& values) {
-  for (std::size_t n = 0; n < values.size(); ++n)
-    check(item_.putAndInsertUint32(tag, values[n], static_cast<unsigned long>(n)), tag);
+  auto element = std::make_unique<DcmUnsignedLong>(DcmTag(tag));
+  check(element->putUint32Array(values.data(), static_cast<unsigned long>(values.size())), tag);
+  check(item_.insert(element.get(), OFTrue), tag);
+  element.release();  // the item owns it now
 }
 
 void Writer::real(const DcmTagKey& tag, double value) {

@@ -64,7 +64,7 @@ std::size_t differences(const image::Mask& a, const image::Mask& b) {
       for (int i = 0; i < b.grid.size.x(); ++i) {
         const Eigen::Vector3d index = a.grid.lpsToIndex(b.grid.indexToLps(Eigen::Vector3d(i, j, k)));
         const Eigen::Vector3i at = index.array().round().cast<int>();
-        EXPECT_LT((index - at.cast<double>()).norm(), 0.01);
+        if ((index - at.cast<double>()).norm() > 0.02) return a.values.size();  // not on its lattice
         if (!a.grid.contains(at)) {
           different += b.at(i, j, k);
           continue;
