@@ -18,7 +18,12 @@ pipeline::AnatomicalImage load(const Arguments& a, const Progress& progress) {
   const dicom::ScanResult scan = dicom::scan(a.in, progress.part(0.0, 0.5));
   for (const dicom::Series& s : scan.series)
     if (s.uid == a.series || name(s.role) == a.series || std::to_string(s.number) == a.series)
-      return {dicom::readSeries(s, progress.part(0.5, 1.0)), s.frameOfReferenceUid, s.patientKey, s.warnings};
+      return {dicom::readSeries(s, progress.part(0.5, 1.0)),
+              s.frameOfReferenceUid,
+              s.patientKey,
+              s.studyDate,
+              s.warnings,
+              {}};
   throw BadInput("no series has the UID, number or role '" + a.series + "'; list them with: glisson-cli scan");
 }
 

@@ -2,17 +2,25 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "image/io.h"
+#include "image/resample.h"
+#include "pipeline/breath_hold.h"
 #include "pipeline/sources.h"
+#include "roles_option.h"
 #include "verbs.h"
 
 namespace glisson::cli {
 namespace {
 
 struct Arguments {
-  std::filesystem::path mre, roi, mri;
+  std::filesystem::path mre, roi, mri, exclude, magnitude;
+  bool registration = false;
   std::string quantity, unit, name;
+  std::vector<std::string> roles;
+  bool overrideChecks = false;
   int label = 0;
   int erosion_pixels = 0;
+  double erosion_mm = 0.0;
   double confidence = defaults::confidenceThreshold;
   double poisson = 0.5;
 };
@@ -34,21 +42,50 @@ Json toJson(const elastography::Statistics& s) {
   return j;
 }
 
+Json toJson(const elastography::Registration& r) {
+  Json rows = Json::array();
+  for (int i = 0; i < 4; ++i)
+    rows.push_back({r.X_fixed_moving(i, 0), r.X_fixed_moving(i, 1), r.X_fixed_moving(i, 2), r.X_fixed_moving(i, 3)});
+  return {{"mri_from_mre", rows},
+          {"shift_mm", r.shift_mm},
+          {"rotation_deg", r.rotation_deg},
+          {"similarity_before", r.similarityBefore},
+          {"similarity_after", r.similarityAfter}};
+}
+
 int measure(const Arguments& a, const Context& context) {
   pipeline::MapMeaning meaning;
   if (!a.quantity.empty())
     meaning.quantity = a.quantity == "shear" ? StiffnessQuantity::Shear : StiffnessQuantity::Youngs;
   if (!a.unit.empty()) meaning.unit = a.unit;
+  meaning.roles = rolesFrom(a.roles);
   const Progress progress = context.progress();
-  const pipeline::LoadedStiffness mre = pipeline::loadStiffness(a.mre, meaning, progress.part(0.0, 0.6));
+  pipeline::LoadedStiffness mre = pipeline::loadStiffness(a.mre, meaning, progress.part(0.0, 0.6));
   const pipeline::LoadedRoi roi = pipeline::loadRoi(a.roi, a.name, a.label, progress.part(0.6, 0.8));
+  if (a.registration && a.mri.empty()) throw BadInput("a breath-hold correction needs the image to fit to: give --mri");
   std::optional<image::Grid> mriGrid;
-  if (!a.mri.empty()) mriGrid = pipeline::loadImage(a.mri, progress.part(0.8, 0.9)).volume.grid;
+  std::optional<elastography::Registration> registration;
+  std::vector<std::string> together;
+  std::vector<std::vector<std::string>> rolesNotFound = {mre.rolesNotFound};
+  if (!a.mri.empty()) {
+    const pipeline::AnatomicalImage mri = pipeline::loadImage(a.mri, progress.part(0.8, 0.9), meaning.roles);
+    mriGrid = mri.volume.grid;
+    if (a.registration) registration = pipeline::fitToMri(mre, a.mre, a.magnitude, mri.volume, progress.part(0.9, 1.0));
+    together = pipeline::checkTogether(mri, mre, a.overrideChecks);
+    rolesNotFound.push_back(mri.rolesNotFound);
+  }
+  pipeline::checkRolesFound(meaning.roles, rolesNotFound);
   const elastography::MappedRoi mapped = pipeline::mapRoi(roi, mriGrid, mre.map);
 
   elastography::MeasureOptions options;
   options.confidenceThreshold = a.confidence;
   options.erosion_pixels = a.erosion_pixels;
+  options.erosion_mm = a.erosion_mm;
+  std::optional<image::Mask> excluded;
+  if (!a.exclude.empty()) {
+    excluded = image::resampleNearest(image::readMask(a.exclude), mre.map.values_kPa.grid);
+    options.exclude = &*excluded;
+  }
   options.poisson = a.poisson;
   const elastography::Measurement m = elastography::measure(mre.map, mapped.mask, options);
   progress.report(1.0, "measured");
@@ -62,6 +99,10 @@ int measure(const Arguments& a, const Context& context) {
     one.update(toJson(s.statistics));
     j["slices"].push_back(one);
   }
+  j["mean_se_kPa"] = orNull(m.uncertainty.se_kPa);
+  j["mean_ci95_kPa"] = {orNull(m.uncertainty.low_kPa), orNull(m.uncertainty.high_kPa)};
+  j["correlated_voxels"] = m.uncertainty.correlatedVoxels;
+  if (registration) j["registration"] = toJson(*registration);
   j["area_weighted_mean_kPa"] = orNull(m.areaWeightedMean_kPa);
   j["youngs_mean_kPa"] = orNull(m.youngs_mean_kPa);
   j["shear_mean_kPa"] = orNull(m.shear_mean_kPa);
@@ -69,7 +110,8 @@ int measure(const Arguments& a, const Context& context) {
   j["roi_coverage"] = mapped.coverage;
   j["left_out"] = {{"not_finite", m.notFinite}, {"not_positive", m.notPositive}, {"low_confidence", m.lowConfidence}};
   std::vector<std::string> warnings = mre.warnings;
-  for (const auto* more : {&roi.warnings, &mapped.warnings, &m.warnings})
+  for (const std::vector<std::string>* more :
+       std::initializer_list<const std::vector<std::string>*>{&together, &roi.warnings, &mapped.warnings, &m.warnings})
     warnings.insert(warnings.end(), more->begin(), more->end());
   j["warnings"] = warnings;
 
@@ -94,17 +136,25 @@ int measure(const Arguments& a, const Context& context) {
 void addMeasure(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("measure", "stiffness statistics of a region of interest, per slice and pooled");
   auto a = std::make_shared<Arguments>();
-  verb->add_option("--mre", a->mre, "elastogram: DICOM folder, or a stiffness map")->required();
+  verb->add_option("--mre", a->mre, "elastogram: DICOM folder, DICOMDIR or ZIP archive, or a stiffness map")
+      ->required();
   verb->add_option("--roi", a->roi, "region of interest: contour JSON, RT Structure Set or mask")->required();
   verb->add_option("--mri", a->mri,
                    "image that the contours were drawn on, where its slices differ from the elastogram's");
   verb->add_option("--quantity", a->quantity, "what a bare map holds")->check(CLI::IsMember({"shear", "youngs"}));
   verb->add_option("--unit", a->unit, "unit of a bare map: Pa, kPa or <factor>kPa");
+  verb->add_option("--role", a->roles, "series=role, set by hand: UID or number, and stiffness, confidence ...");
+  verb->add_flag("--override", a->overrideChecks, "take MRI and elastogram of other days or patients nevertheless");
   verb->add_option("--label", a->label, "label of a mask, 0 = any");
   verb->add_option("--name", a->name, "structure of an RT Structure Set");
   verb->add_option("--confidence", a->confidence, "voxels below are left out, 0 to 1")->check(CLI::Range(0.0, 1.0));
-  verb->add_option("--erode", a->erosion_pixels, "inner region of interest: pixels to take off the border")
+  verb->add_option("--erode,--erode-px", a->erosion_pixels, "inner region of interest: pixels to take off the border")
       ->check(CLI::Range(0, 100));
+  verb->add_option("--erode-mm", a->erosion_mm, "the same in millimetres from the outline")
+      ->check(CLI::Range(0.0, 100.0));
+  verb->add_option("--exclude", a->exclude, "mask of what is left out: large vessels");
+  verb->add_flag("--register", a->registration, "correct another breath-hold: lay the magnitude images over --mri");
+  verb->add_option("--magnitude", a->magnitude, "magnitude images of the elastogram, where they lie elsewhere");
   verb->add_option("--poisson", a->poisson, "for Young's modulus; 0.5 is incompressible, E = 3 mu")
       ->check(CLI::Range(0.0, 0.5));
   verb->callback([&context, a] { context.action = [&context, a] { return measure(*a, context); }; });

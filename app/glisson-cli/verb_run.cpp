@@ -43,11 +43,14 @@ void addRun(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("run", "do everything that a scene needs; write results, pictures and run.json");
   auto scenePath = std::make_shared<std::filesystem::path>();
   auto colourBlind = std::make_shared<bool>(false);
+  auto overrideChecks = std::make_shared<bool>(false);
   verb->add_option("scene", *scenePath, "scene.json")->required();
   verb->add_flag("--colour-blind", *colourBlind, "orange and blue instead of red and blue");
-  verb->callback([&context, scenePath, colourBlind] {
-    context.action = [&context, scenePath, colourBlind] {
+  verb->add_flag("--override", *overrideChecks, "take MRI and elastogram of other days or patients nevertheless");
+  verb->callback([&context, scenePath, colourBlind, overrideChecks] {
+    context.action = [&context, scenePath, colourBlind, overrideChecks] {
       pipeline::Scene scene = pipeline::readScene(*scenePath);
+      scene.geometry.overrideChecks = scene.geometry.overrideChecks || *overrideChecks;
       if (context.seedGiven) scene.setup.seed = scene.setup.model.meshfree.seed = context.seed;
       render::setRenderBackend(context.renderBackend == "egl"   ? render::RenderBackend::Egl
                                : context.renderBackend == "x11" ? render::RenderBackend::X11

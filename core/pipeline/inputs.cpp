@@ -34,7 +34,9 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
   const GeometrySpec& g = scene.geometry;
   StepClock clock(in);
   progress.report(0.0, "reading the MRI");
-  AnatomicalImage mri = loadImage(g.mri, progress.part(0.0, 0.4));
+  AnatomicalImage mri = loadImage(g.mri, progress.part(0.0, 0.4), g.roles);
+  if (mri.volume.grid.size.z() < 2)
+    throw BadInput("the MRI has a single slice: statistics are possible, a 3-D model is not; give the whole series");
   append(in.warnings, mri.warnings);
   clock.note("read-mri");
   progress.report(0.4, "reading the region of interest");
@@ -44,21 +46,21 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
       roi.contours->frameOfReferenceUid != mri.frameOfReferenceUid)
     in.warnings.push_back(
         "the contours and the MRI have different frames of reference: check that they belong together");
+  if (roi.mask && !roi.frameOfReferenceUid.empty() && !mri.frameOfReferenceUid.empty() &&
+      roi.frameOfReferenceUid != mri.frameOfReferenceUid)
+    in.warnings.push_back(
+        "the segmentation and the MRI have different frames of reference: check that they belong together");
   const std::optional<std::string> completed = completeOutlines(roi, mri.volume.grid);
   if (completed) in.warnings.push_back(*completed);
   in.liver = roi.contours ? roi::rasterise(*roi.contours, mri.volume.grid) : *roi.mask;
   clock.note("read-roi");
   if (needs.mre) {
     progress.report(0.5, "reading the elastogram");
-    LoadedStiffness mre = loadStiffness(g.mre, {}, progress.part(0.5, 0.9));
+    LoadedStiffness mre = loadStiffness(g.mre, {{}, {}, g.roles}, progress.part(0.5, 0.9));
     if (g.rigidRegistration) in.registration = fitToMri(mre, g.mre, {}, mri.volume, progress.part(0.9, 1.0));
     append(in.warnings, mre.warnings);
-    if (!mri.patientKey.empty() && !mre.patientKey.empty() && mri.patientKey != mre.patientKey)
-      throw BadInput("the MRI and the elastogram belong to different patients; choose two series of one patient");
-    if (!mri.frameOfReferenceUid.empty() && !mre.map.frameOfReferenceUid.empty() &&
-        mri.frameOfReferenceUid != mre.map.frameOfReferenceUid)
-      in.warnings.push_back(
-          "the MRI and the elastogram have different frames of reference: check that the patient did not move");
+    append(in.warnings, checkTogether(mri, mre, g.overrideChecks));
+    checkRolesFound(g.roles, {mri.rolesNotFound, mre.rolesNotFound});
     in.roiOnMre = mapRoi(roi, mri.volume.grid, mre.map);
     for (const std::string& warning : in.roiOnMre->warnings)
       if (warning != completed) in.warnings.push_back(warning);
@@ -84,7 +86,8 @@ Inputs loadInputs(const Scene& scene, const Progress& progress) {
     if (needs.mriValues) clock.note("read-mri");
   }
   if (needs.map) {
-    LoadedStiffness map = loadStiffness(scene.material.map, {scene.material.quantity, scene.material.unit}, progress);
+    LoadedStiffness map =
+        loadStiffness(scene.material.map, {scene.material.quantity, scene.material.unit, {}}, progress);
     in.stiffness = std::move(map.map);
     clock.note("read-map");
   }

@@ -29,6 +29,22 @@ std::filesystem::path existing(JsonObject& o, const std::string& key, const std:
   return full;
 }
 
+/// "roles": { "<series UID or number>": "stiffness", ... }
+dicom::RoleOverrides readRoles(JsonObject& o) {
+  dicom::RoleOverrides roles;
+  const auto& list = o.raw("roles");
+  if (!list.is_object()) o.fail("roles", "must be an object: series UID or number -> role");
+  for (const auto& [which, role] : list.items()) {
+    if (!role.is_string()) o.fail("roles", "must name a role in words, e.g. \"stiffness\"");
+    try {
+      roles[which] = dicom::roleNamed(role.template get<std::string>());
+    } catch (const BadInput& e) {
+      o.fail("roles", e.what());
+    }
+  }
+  return roles;
+}
+
 GeometrySpec readGeometry(JsonObject o, const std::filesystem::path& folder) {
   GeometrySpec g;
   const std::string kind = o.word("kind", {"box", "mask", "patient"});
@@ -59,6 +75,8 @@ GeometrySpec readGeometry(JsonObject o, const std::filesystem::path& folder) {
     g.roi = existing(o, "roi", folder);
     g.roiName = o.text("roi_name", "");
     g.rigidRegistration = o.word("registration", {"none", "rigid"}, "none") == "rigid";
+    if (o.has("roles")) g.roles = readRoles(o);
+    g.overrideChecks = o.boolean("override", false);
     g.label = o.integer("label", 0);
   }
   o.finish();
@@ -347,8 +365,8 @@ OutputSpec readOutputs(JsonObject& scene) {
 
 }  // namespace
 
-Scene parseScene(const std::string& text, const std::filesystem::path& folder) {
-  const JsonDocument document = JsonDocument::parse(text, "scene");
+Scene parseScene(const std::string& text, const std::filesystem::path& folder, const std::string& name) {
+  const JsonDocument document = JsonDocument::parse(text, name);
   JsonObject o(document, "", document.root);
   Scene s;
   s.folder = folder;
@@ -396,7 +414,7 @@ Scene readScene(const std::filesystem::path& file) {
   std::ostringstream text;
   text << in.rdbuf();
   const std::filesystem::path folder = file.parent_path();
-  return parseScene(text.str(), folder.empty() ? "." : folder);
+  return parseScene(text.str(), folder.empty() ? "." : folder, file.filename().string());
 }
 
 }  // namespace glisson::pipeline

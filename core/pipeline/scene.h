@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/quantity.h"
+#include "dicom/series.h"
 #include "retraction/setup.h"
 
 namespace glisson::pipeline {
@@ -22,6 +23,8 @@ struct GeometrySpec {
   std::filesystem::path mri, mre, roi;                ///< Patient: DICOM folder or file, volume, contours
   bool rigidRegistration = false;  ///< Patient: elastogram laid over the MRI by its magnitude images (breath-hold)
   std::string roiName;                                ///< Patient: structure to take; empty = found by name
+  dicom::RoleOverrides roles;                         ///< Patient: of series, set by hand
+  bool overrideChecks = false;                        ///< Patient: other patient, day or frame of reference is meant
 };
 
 /// Where the stiffness comes from.
@@ -60,7 +63,8 @@ struct Scene {
 Scene readScene(const std::filesystem::path& file);
 
 /// The same from text; folder resolves relative paths.
-Scene parseScene(const std::string& text, const std::filesystem::path& folder);
+/// name: what to call the text in messages, e.g. the file's name.
+Scene parseScene(const std::string& text, const std::filesystem::path& folder, const std::string& name = "scene");
 
 /// A scene as JSON text with every default written out; parseScene of it gives the same scene.
 std::string toJson(const Scene& scene);

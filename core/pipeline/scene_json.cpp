@@ -39,6 +39,8 @@ Json toJson(const GeometrySpec& g, const std::filesystem::path& folder) {
       j["roi"] = pathText(g.roi, folder);
       if (!g.roiName.empty()) j["roi_name"] = g.roiName;
       if (g.rigidRegistration) j["registration"] = "rigid";
+      for (const auto& [which, role] : g.roles) j["roles"][which] = dicom::name(role);
+      if (g.overrideChecks) j["override"] = true;
       if (g.label != 0) j["label"] = g.label;
       break;
   }

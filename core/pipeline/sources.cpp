@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "dicom/rtstruct.h"
+#include "dicom/seg.h"
 #include "elastography/roi_from_structures.h"
 #include "image/io.h"
 #include "roi/contour_io.h"
@@ -36,15 +37,39 @@ const dicom::Series& seriesFor(const dicom::ScanResult& scan, dicom::SeriesRole 
   return dicom::findRole(scan, role);
 }
 
+/// The segment that is asked for: by label number, by name, else the one called liver, else the only one.
+int segmentNumber(const dicom::SegmentationSet& set, const std::string& name, int label) {
+  if (label != 0) return label;
+  const auto lower = [](std::string s) {
+    std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return s;
+  };
+  std::vector<int> found;
+  std::string there;
+  for (const dicom::Segment& s : set.segments) {
+    there += (there.empty() ? "" : ", ") + std::to_string(s.number) + " '" + s.label + "'";
+    const bool liver = s.propertyCode == "SCT:10200004" || s.propertyCode == "SRT:T-62000" ||
+                       lower(s.label).find("liver") != std::string::npos;
+    if (name.empty() ? liver : lower(s.label) == lower(name)) found.push_back(s.number);
+  }
+  if (found.size() == 1) return found.front();
+  if (name.empty() && set.segments.size() == 1) return set.segments.front().number;
+  throw BadInput(std::string("the segmentation has ") + (found.empty() ? "no" : "several") +
+                 " segments that fit; it holds " + there + ": choose one by its number (--label) or name (--name)");
+}
+
 }  // namespace
 
-AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& progress) {
+AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& progress,
+                          const dicom::RoleOverrides& roles) {
   AnatomicalImage out;
   if (std::filesystem::is_regular_file(path) && image::isVolumeFile(path)) {
     out.volume = image::readVolume(path);
+    for (const auto& [which, role] : roles) out.rolesNotFound.push_back(which);
     return out;
   }
-  const dicom::ScanResult scan = dicom::scan(path, progress.part(0.0, 0.4));
+  dicom::ScanResult scan = dicom::scan(path, progress.part(0.0, 0.4));
+  out.rolesNotFound = dicom::applyRoles(scan, roles);
   if (scan.series.empty())
     throw BadInput("no image series was found in '" + path.filename().string() + "'" +
                    (scan.skipped.empty() ? "" : ": " + scan.skipped.front().reason));
@@ -52,6 +77,7 @@ AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& pro
   out.volume = dicom::readSeries(series, progress.part(0.4, 1.0));
   out.frameOfReferenceUid = series.frameOfReferenceUid;
   out.patientKey = series.patientKey;
+  out.studyDate = series.studyDate;
   out.warnings = series.warnings;
   return out;
 }
@@ -61,11 +87,14 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
   if (std::filesystem::is_regular_file(path) && image::isVolumeFile(path)) {
     if (!meaning.quantity || !meaning.unit)
       throw BadInput("'" + path.filename().string() +
-                     "' is a bare map: say what it holds, quantity shear or youngs and unit Pa, kPa or <factor>kPa");
+                     "' is a bare map: say what it holds, quantity shear or youngs (--quantity) and unit Pa, kPa or "
+                     "<factor>kPa (--unit)");
     out.map = elastography::makeStiffnessMap(image::readVolume(path), *meaning.quantity, *meaning.unit);
+    for (const auto& [which, role] : meaning.roles) out.rolesNotFound.push_back(which);
     return out;
   }
-  const dicom::ScanResult scan = dicom::scan(path, progress.part(0.0, 0.4));
+  dicom::ScanResult scan = dicom::scan(path, progress.part(0.0, 0.4));
+  out.rolesNotFound = dicom::applyRoles(scan, meaning.roles);
   if (scan.series.empty())
     throw BadInput("no image series was found in '" + path.filename().string() + "'" +
                    (scan.skipped.empty() ? "" : ": " + scan.skipped.front().reason));
@@ -77,12 +106,14 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
   const std::optional<std::string> unit = meaning.unit ? meaning.unit : series.unit;
   if (!unit)
     throw BadInput("the series '" + series.description +
-                   "' does not say in which unit its stiffness is; give the unit (Pa, kPa or <factor>kPa)");
+                   "' does not say in which unit its stiffness is; give it with --unit (Pa, kPa or <factor>kPa), and "
+                   "--quantity (shear or youngs) where it is not the shear modulus");
   // MR elastography reports the shear modulus unless told otherwise.
   out.map = elastography::makeStiffnessMap(dicom::readSeries(series, progress.part(0.4, 0.8)),
                                            meaning.quantity.value_or(StiffnessQuantity::Shear), *unit);
   out.map.frameOfReferenceUid = series.frameOfReferenceUid;
   out.patientKey = series.patientKey;
+  out.studyDate = series.studyDate;
   append(out.warnings, series.warnings);
   noteSkipped(scan, out.warnings);
   for (const dicom::Series& s : scan.series)
@@ -93,6 +124,35 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
   if (!out.map.confidence)
     out.warnings.push_back("there is no confidence map: every voxel of the region of interest counts");
   return out;
+}
+
+std::vector<std::string> checkTogether(const AnatomicalImage& mri, const LoadedStiffness& mre, bool overridden) {
+  std::vector<std::string> said;
+  const auto differ = [](const std::string& a, const std::string& b) { return !a.empty() && !b.empty() && a != b; };
+  const auto refuse = [&](const std::string& what) {
+    if (!overridden)
+      throw BadInput(what +
+                     "; choose two series of one examination, or take them together nevertheless with --override "
+                     "(\"override\": true in the scene's geometry), which is written to the record");
+    said.push_back(what + ": overridden by the user");
+  };
+  if (differ(mri.patientKey, mre.patientKey)) refuse("the MRI and the elastogram belong to different patients");
+  if (differ(mri.studyDate, mre.studyDate)) refuse("the MRI and the elastogram were taken on different days");
+  if (differ(mri.frameOfReferenceUid, mre.map.frameOfReferenceUid))
+    said.push_back(
+        std::string(
+            "the MRI and the elastogram have different frames of reference: check that the patient did not move ") +
+        (overridden ? "(confirmed by the user)" : "(confirm it with --override)"));
+  return said;
+}
+
+void checkRolesFound(const dicom::RoleOverrides& roles, const std::vector<std::vector<std::string>>& notFound) {
+  for (const auto& [which, role] : roles)
+    if (std::all_of(notFound.begin(), notFound.end(), [&which](const std::vector<std::string>& list) {
+          return std::find(list.begin(), list.end(), which) != list.end();
+        }))
+      throw BadInput("no series has the UID or number '" + which.substr(0, 70) +
+                     "' that a role was given for; list them with: glisson-cli scan");
 }
 
 LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, int label, const Progress& progress) {
@@ -117,6 +177,12 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
     out.contours = roi::readContours(path);
   } else if (image::isVolumeFile(path)) {
     out.mask = image::readMask(path, label);
+  } else if (dicom::isSegmentation(path)) {
+    const dicom::SegmentationSet set = dicom::readSegmentation(path);
+    append(out.warnings, set.warnings);
+    out.mask = dicom::maskOf(set, segmentNumber(set, name, label));
+    out.frameOfReferenceUid = set.frameOfReferenceUid;
+    out.referencedSeriesUid = set.referencedSeriesUid;
   } else {
     dicom::StructureSet set = dicom::readRtStruct(path);
     append(out.warnings, set.warnings);
@@ -157,14 +223,22 @@ std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& m
 elastography::MappedRoi mapRoi(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
                                const elastography::StiffnessMap& map) {
   if (roi.contours) {
-    LoadedRoi complete{roi.contours, {}, {}};
+    LoadedRoi complete;
+    complete.contours = roi.contours;
     const auto completed = mriGrid ? completeOutlines(complete, *mriGrid) : std::nullopt;
     elastography::MappedRoi mapped =
         elastography::mapRoi(*complete.contours, mriGrid, map.values_kPa.grid, map.frameOfReferenceUid);
     if (completed) mapped.warnings.push_back(*completed);
     return mapped;
   }
-  if (roi.mask) return elastography::mapRoi(*roi.mask, map.values_kPa.grid);
+  if (roi.mask) {
+    elastography::MappedRoi mapped = elastography::mapRoi(*roi.mask, map.values_kPa.grid);
+    if (!roi.frameOfReferenceUid.empty() && !map.frameOfReferenceUid.empty() &&
+        roi.frameOfReferenceUid != map.frameOfReferenceUid)
+      mapped.warnings.push_back(
+          "the segmentation and the elastogram have different frames of reference: check that they belong together");
+    return mapped;
+  }
   throw BadArgument("mapRoi: the region of interest is empty");
 }
 

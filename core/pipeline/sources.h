@@ -20,22 +20,29 @@ struct AnatomicalImage {
   image::ScalarVolume volume;
   std::string frameOfReferenceUid;  ///< empty for files without one
   std::string patientKey;           ///< to tell patients apart, never to show
+  std::string studyDate;            ///< to compare, never to show
   std::vector<std::string> warnings;
+  std::vector<std::string> rolesNotFound;  ///< series named in roles that are not here
 };
 
-/// A DICOM folder or file (its anatomical series; where there is none, its only series) or a NIfTI/NRRD/MHA volume.
-AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& progress = {});
+/// A DICOM folder, file, DICOMDIR or ZIP archive (its anatomical series; where there is none, its only series) or a
+/// NIfTI/NRRD/MHA volume. roles: set by hand.
+AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& progress = {},
+                          const dicom::RoleOverrides& roles = {});
 
 /// How a bare map is to be understood; a DICOM series knows by itself.
 struct MapMeaning {
   std::optional<StiffnessQuantity> quantity;
   std::optional<std::string> unit;
+  dicom::RoleOverrides roles;  ///< set by hand
 };
 
 struct LoadedStiffness {
   elastography::StiffnessMap map;
   std::string patientKey;
+  std::string studyDate;
   std::vector<std::string> warnings;
+  std::vector<std::string> rolesNotFound;  ///< as in AnatomicalImage
 };
 
 /// A DICOM folder (its stiffness series, and its confidence series where it has one) or a bare map, for which quantity
@@ -43,14 +50,25 @@ struct LoadedStiffness {
 LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeaning& meaning,
                               const Progress& progress = {});
 
-/// A region of interest as it came: polygons (contour JSON, RT Structure Set) or voxels (NIfTI, NRRD, MHA).
+/// Whether an MRI and an elastogram may be used together. Throws BadInput where they are of different patients or study
+/// dates, unless overridden; returns what to tell and to store: that, and different frames of reference (the patient
+/// may have moved), each with whether it was overridden. What either does not say is not compared.
+std::vector<std::string> checkTogether(const AnatomicalImage& mri, const LoadedStiffness& mre, bool overridden);
+
+/// Throws BadInput where a series that a role was given for is in none of the inputs (each with its rolesNotFound).
+void checkRolesFound(const dicom::RoleOverrides& roles, const std::vector<std::vector<std::string>>& notFound);
+
+/// A region of interest as it came: polygons (contour JSON, RT Structure Set) or voxels (NIfTI, NRRD, MHA,
+/// DICOM Segmentation).
 struct LoadedRoi {
   std::optional<roi::ContourStack> contours;
   std::optional<image::Mask> mask;
   std::vector<std::string> warnings;
+  std::string frameOfReferenceUid;  ///< of a mask that came as DICOM Segmentation; else empty
+  std::string referencedSeriesUid;  ///< the series that the Segmentation was made on; empty where it names none
 };
 
-/// name: structure to take; empty = found by its name. label: of a label map, 0 = any.
+/// name: structure or segment to take; empty = found by its name. label: of a label map (0 = any), or segment number.
 LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, int label, const Progress& progress = {});
 
 /// Fills empty slices between outlined ones by shape, where the region came as polygons (roi/interpolate.h). Returns

@@ -97,6 +97,22 @@ TEST(Syntaxes, jpegLosslessGivesTheSameVoxels) {
   EXPECT_EQ(readOnly(folder / "jpeg").values, nativePixels());
 }
 
+TEST(Syntaxes, theSameImageInEightEncodingsIsTheSameToTheBit) {
+  const std::filesystem::path folder = "/usr/lib/python3/dist-packages/pydicom/data/test_files";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "Debian's python3-pydicom is not installed";
+  const image::ScalarVolume truth = readOnly(folder / "MR_small.dcm");
+  EXPECT_GT(std::set<float>(truth.values.begin(), truth.values.end()).size(), 100U);
+  for (const char* name : {"MR_small_RLE.dcm", "MR_small_bigendian.dcm", "MR_small_expb.dcm", "MR_small_implicit.dcm",
+                           "MR_small_jp2klossless.dcm", "MR_small_jpeg_ls_lossless.dcm", "MR_small_padded.dcm"}) {
+    const image::ScalarVolume v = readOnly(folder / name);
+    EXPECT_EQ(v.values, truth.values) << name;
+    EXPECT_TRUE(v.grid.sameGeometry(truth.grid, 1e-9)) << name;
+  }
+  // An irreversible wavelet is read and marked.
+  const ScanResult lossy = scan(folder / "JPEG2000.dcm");
+  for (const Series& s : lossy.series) EXPECT_TRUE(s.lossy);
+}
+
 TEST(Syntaxes, codeStreamsOfAnotherSizeAreRefused) {
   GLISSON_NEEDS_DATA("dicom_seg_rtstruct");
   const test::TemporaryFolder folder;

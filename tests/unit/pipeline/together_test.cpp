@@ -1,0 +1,83 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "pipeline/scene.h"
+#include "pipeline/sources.h"
+#include "support/support.h"
+
+namespace glisson::pipeline {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Together, sameExaminationSaysNothingAndSilenceIsNoContradiction) {
+  AnatomicalImage mri;
+  LoadedStiffness mre;
+  EXPECT_THAT(checkTogether(mri, mre, false), IsEmpty());
+  mri.patientKey = mre.patientKey = "a";
+  mri.studyDate = "20200101";  // the map does not say
+  mri.frameOfReferenceUid = mre.map.frameOfReferenceUid = "1.2";
+  EXPECT_THAT(checkTogether(mri, mre, false), IsEmpty());
+}
+
+TEST(Together, otherPatientOrDayIsAnErrorUnlessOverriddenAndThenStored) {
+  AnatomicalImage mri;
+  LoadedStiffness mre;
+  mri.patientKey = "a";
+  mre.patientKey = "b";
+  EXPECT_THROW(checkTogether(mri, mre, false), BadInput);
+  EXPECT_THAT(checkTogether(mri, mre, true), ElementsAre(HasSubstr("different patients: overridden by the user")));
+  mre.patientKey = "a";
+  mri.studyDate = "20200101";
+  mre.studyDate = "20200102";
+  try {
+    checkTogether(mri, mre, false);
+    FAIL() << "other days were taken together";
+  } catch (const BadInput& e) {
+    EXPECT_THAT(e.what(), HasSubstr("--override"));
+    EXPECT_THAT(e.what(), Not(HasSubstr("2020")));  // a date may tell who it is
+  }
+  EXPECT_THAT(checkTogether(mri, mre, true), ElementsAre(HasSubstr("different days: overridden by the user")));
+}
+
+TEST(Together, otherFrameOfReferenceIsAWarningToBeConfirmed) {
+  AnatomicalImage mri;
+  LoadedStiffness mre;
+  mri.frameOfReferenceUid = "1.2";
+  mre.map.frameOfReferenceUid = "1.3";
+  EXPECT_THAT(checkTogether(mri, mre, false), ElementsAre(HasSubstr("confirm it with --override")));
+  EXPECT_THAT(checkTogether(mri, mre, true), ElementsAre(HasSubstr("confirmed by the user")));
+}
+
+TEST(Together, aRoleMustBeOfASeriesThatIsThere) {
+  const dicom::RoleOverrides roles = {{"1.2", dicom::SeriesRole::Stiffness}, {"7", dicom::SeriesRole::Anatomical}};
+  EXPECT_NO_THROW(checkRolesFound(roles, {{"1.2"}, {"7"}}));
+  EXPECT_THROW(checkRolesFound(roles, {{"1.2"}, {"7", "1.2"}}), BadInput);
+}
+
+TEST(Together, aSceneKeepsRolesAndOverride) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"mri", "mre", "roi"}) std::filesystem::create_directory(folder / name);
+  const auto scene = [&folder](const std::string& more) {
+    return parseScene(
+        R"({"schema":"glisson/scene/1","geometry":{"kind":"patient","mri":"mri","mre":"mre","roi":"roi")" + more +
+            R"(},"material":"mre","supports":[],"loads":[]})",
+        folder.path());
+  };
+  EXPECT_FALSE(scene("").geometry.overrideChecks);
+  const Scene given = scene(R"(,"override":true,"roles":{"1.2.3":"stiffness","401":"phase"})");
+  EXPECT_TRUE(given.geometry.overrideChecks);
+  EXPECT_EQ(given.geometry.roles.at("1.2.3"), dicom::SeriesRole::Stiffness);
+  EXPECT_EQ(given.geometry.roles.at("401"), dicom::SeriesRole::Phase);
+  const Scene again = parseScene(toJson(given), folder.path());
+  EXPECT_EQ(again.geometry.roles, given.geometry.roles);
+  EXPECT_TRUE(again.geometry.overrideChecks);
+  EXPECT_THROW(scene(R"(,"roles":{"1.2.3":"stiff"})"), BadInput);
+  EXPECT_THROW(scene(R"(,"roles":["1.2.3"])"), BadInput);
+}
+
+}  // namespace
+}  // namespace glisson::pipeline
