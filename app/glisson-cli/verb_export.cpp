@@ -1,0 +1,46 @@
+#include <sstream>
+
+#include "base/error.h"
+#include "pipeline/export.h"
+#include "verbs.h"
+
+namespace glisson::cli {
+
+void addExport(CLI::App& app, Context& context) {
+  std::string names;
+  for (const pipeline::ExportFormat& f : pipeline::exportFormats())
+    names += "\n  " + f.name + std::string(f.name.size() < 10 ? 10 - f.name.size() : 1, ' ') + f.gives;
+  CLI::App* verb = app.add_subcommand("export", "standard files of a scene or a run, by --to:" + names);
+  auto request = std::make_shared<pipeline::ExportRequest>();
+  auto quantity = std::make_shared<std::string>();
+  verb->add_option("source", request->source, "scene.json, or the folder of a run")->required();
+  verb->add_option("--to", request->formats, "formats, separated by commas")->required()->delimiter(',');
+  verb->add_option("--quantity", *quantity, "modulus of exported stiffness, where it is not the measured one")
+      ->check(CLI::IsMember({"shear", "youngs"}));
+  verb->add_option("--case", request->caseName, "case of tidy tables (never taken from the patient)");
+  verb->add_option("--reader", request->reader, "reader of tidy tables");
+  verb->callback([&context, request, quantity] {
+    context.action = [&context, request, quantity] {
+      if (context.output.empty()) throw BadInput("export needs a folder to write to: give --output");
+      request->output = context.output;
+      request->seed = context.seed;
+      if (!quantity->empty())
+        request->quantity = *quantity == "shear" ? StiffnessQuantity::Shear : StiffnessQuantity::Youngs;
+      const pipeline::Exported done = pipeline::exportFiles(*request, context.progress());
+      Json j;
+      j["formats"] = request->formats;
+      j["files"] = Json::array();
+      std::ostringstream text;
+      for (const auto& f : done.files) {
+        j["files"].push_back(f.string());
+        text << "written " << f.string() << "\n";
+      }
+      j["warnings"] = done.warnings;
+      for (const std::string& w : done.warnings) text << "warning: " << w << "\n";
+      context.print(j, text.str());
+      return Ok;
+    };
+  });
+}
+
+}  // namespace glisson::cli

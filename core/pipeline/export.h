@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "base/quantity.h"
+
+namespace glisson::pipeline {
+
+/// What to export, and from what.
+struct ExportRequest {
+  std::filesystem::path source;  ///< a scene file, or the folder of a run (its scene.json is solved again)
+  std::vector<std::string> formats;
+  std::filesystem::path output;               ///< folder, made where it is missing
+  std::uint64_t seed = 1;                     ///< of new DICOM identifiers
+  std::string caseName;                       ///< "case" of tidy tables; no patient's name
+  std::string reader;                         ///< "reader" of tidy tables
+  std::optional<StiffnessQuantity> quantity;  ///< of exported stiffness; empty: as measured
+};
+
+struct Exported {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> warnings;
+};
+
+/// A format by the name that the command line uses, and what it gives.
+struct ExportFormat {
+  std::string name, gives;
+};
+std::vector<ExportFormat> exportFormats();
+
+/// Writes the formats asked for. Steps that several formats share (reading, solving) are done once. Throws BadInput:
+/// unknown format, a scene without what a format needs (naming it).
+Exported exportFiles(const ExportRequest& request, const Progress& progress = {});
+
+}  // namespace glisson::pipeline

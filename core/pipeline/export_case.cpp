@@ -1,0 +1,137 @@
+#include <algorithm>
+
+#include "base/error.h"
+#include "image/resample.h"
+#include "pipeline/detail/export_case.h"
+#include "roi/polygon.h"
+
+namespace glisson::pipeline::detail {
+
+ExportCase::ExportCase(const ExportRequest& request, const Progress& progress)
+    : request_(request), progress_(progress) {
+  std::filesystem::path file = request.source;
+  if (std::filesystem::is_directory(file)) {
+    runFolder_ = file;
+    file /= "scene.json";
+    if (!std::filesystem::exists(file))
+      throw BadInput("the folder holds no scene.json: give a scene file, or the folder that a run has written");
+  }
+  scene_ = readScene(file);
+  std::error_code failed;
+  std::filesystem::create_directories(request.output, failed);
+  if (failed || !std::filesystem::is_directory(request.output))
+    throw BadInput("the output folder cannot be made; choose another with --output");
+}
+
+const dicom::Series& ExportCase::series(const std::filesystem::path& path, dicom::SeriesRole role, const char* what,
+                                        std::optional<dicom::Series>& kept) {
+  if (kept) return *kept;
+  if (scene_.geometry.kind != GeometrySpec::Kind::Patient || path.empty())
+    throw BadInput(std::string("this format refers to DICOM images, and the scene has no ") + what);
+  dicom::ScanResult scan = dicom::scan(path, progress_);
+  dicom::applyRoles(scan, scene_.geometry.roles);
+  if (scan.series.empty())
+    throw BadInput(std::string("this format refers to DICOM images, and the scene's ") + what + " is no DICOM series");
+  const bool any = std::any_of(scan.series.begin(), scan.series.end(), [&](const auto& s) { return s.role == role; });
+  kept = !any && scan.series.size() == 1 ? scan.series.front() : dicom::findRole(scan, role);
+  if (kept->error) throw BadInput("the series cannot be used as a volume: " + *kept->error);
+  return *kept;
+}
+
+const dicom::Series& ExportCase::mri() {
+  return series(scene_.geometry.mri, dicom::SeriesRole::Anatomical, "MRI", mri_);
+}
+
+const dicom::Series& ExportCase::mre() {
+  return series(scene_.geometry.mre, dicom::SeriesRole::Stiffness, "elastogram", mre_);
+}
+
+const elastography::StiffnessMap& ExportCase::stiffness() {
+  if (stiffness_) return *stiffness_;
+  if (scene_.geometry.mre.empty()) throw BadInput("this format needs an elastogram, and the scene has none");
+  LoadedStiffness loaded = loadStiffness(scene_.geometry.mre, {{}, {}, scene_.geometry.roles}, progress_);
+  for (const std::string& w : loaded.warnings) warn(w);
+  stiffness_ = request_.quantity ? elastography::toQuantity(loaded.map, *request_.quantity, scene_.setup.poisson)
+                                 : std::move(loaded.map);
+  return *stiffness_;
+}
+
+const LoadedRoi& ExportCase::roi() {
+  if (roi_) return *roi_;
+  const GeometrySpec& g = scene_.geometry;
+  if (g.kind == GeometrySpec::Kind::Box)
+    throw BadInput("this format needs a region of interest, and the scene is a box");
+  roi_ = loadRoi(g.kind == GeometrySpec::Kind::Mask ? g.file : g.roi, g.roiName, g.label, progress_);
+  for (const std::string& w : roi_->warnings) warn(w);
+  if (g.kind == GeometrySpec::Kind::Patient) {
+    mriGrid_ = loadImage(g.mri, progress_, g.roles).volume.grid;
+    if (const auto completed = completeOutlines(*roi_, *mriGrid_)) warn(*completed);
+  }
+  return *roi_;
+}
+
+const image::Mask& ExportCase::liver() {
+  if (liver_) return *liver_;
+  const LoadedRoi& r = roi();
+  if (r.contours)
+    liver_ = roi::rasterise(*r.contours, *mriGrid_);
+  else if (mriGrid_ && !r.mask->grid.sameGeometry(*mriGrid_))
+    liver_ = image::resampleNearest(*r.mask, *mriGrid_);
+  else
+    liver_ = *r.mask;
+  return *liver_;
+}
+
+const roi::ContourStack& ExportCase::contours() {
+  if (contours_) return *contours_;
+  const LoadedRoi& r = roi();
+  const bool excludes = r.contours && std::any_of(r.contours->polygons.begin(), r.contours->polygons.end(),
+                                                  [](const roi::Polygon& p) { return p.exclude; });
+  // Regions to leave out have no word in other formats: then the outline of what is left is written.
+  contours_ = r.contours && !excludes ? *r.contours : roi::contoursOf(liver());
+  return *contours_;
+}
+
+const image::Mask& ExportCase::liverOnMre() {
+  if (liverOnMre_) return *liverOnMre_;
+  const LoadedRoi& r = roi();
+  elastography::MappedRoi mapped = mapRoi(r, mriGrid_, stiffness());
+  for (const std::string& w : mapped.warnings) warn(w);
+  liverOnMre_ = std::move(mapped.mask);
+  return *liverOnMre_;
+}
+
+const RunResult& ExportCase::result() {
+  if (result_) return *result_;
+  Scene scene = scene_;
+  scene.outputs = {};
+  scene.outputs.displacementField = true;
+  scene.outputs.vessels = scene_.outputs.vessels;
+  result_ = run(scene, {}, progress_);
+  for (const std::string& w : result_->warnings) warn(w);
+  if (!result_->primary.solver.converged())
+    throw SolverFailed("the scene's solve did not converge: nothing of it is exported",
+                       result_->primary.solver.iterations, result_->primary.solver.residual,
+                       result_->primary.solver.tolerance);
+  return *result_;
+}
+
+std::filesystem::path ExportCase::file(const std::string& name) {
+  const std::filesystem::path path = request_.output / name;
+  if (std::find(exported_.files.begin(), exported_.files.end(), path) == exported_.files.end())
+    exported_.files.push_back(path);
+  return path;
+}
+
+void ExportCase::note(const std::vector<std::filesystem::path>& files) {
+  for (const auto& f : files)
+    if (std::find(exported_.files.begin(), exported_.files.end(), f) == exported_.files.end())
+      exported_.files.push_back(f);
+}
+
+void ExportCase::warn(const std::string& text) {
+  if (std::find(exported_.warnings.begin(), exported_.warnings.end(), text) == exported_.warnings.end())
+    exported_.warnings.push_back(text);
+}
+
+}  // namespace glisson::pipeline::detail
