@@ -110,8 +110,10 @@ void writeRegion(Item& measurements, const ReportedStiffness& r, const Code& mod
   Writer segment(group.image("CONTAINS", &segmentName));
   segment.text(DCM_ReferencedSOPClassUID, UID_SegmentationStorage);
   segment.text(DCM_ReferencedSOPInstanceUID, seg.sopInstanceUid);
-  if (r.slice) segment.number(DCM_ReferencedFrameNumber, seg.frameOfSlice.at(0).at(static_cast<std::size_t>(*r.slice)));
-  segment.word(DCM_ReferencedSegmentNumber, 1);
+  if (r.slice)
+    segment.number(DCM_ReferencedFrameNumber, seg.frameOfSlice.at(0).at(static_cast<std::size_t>(*r.slice)));
+  else
+    segment.word(DCM_ReferencedSegmentNumber, 1);  // one or the other: a frame belongs to one segment
   if (r.slice) {
     const Code sourceImage{"121233", "DCM", "Source image for segmentation"};
     referToSlice(group.image("CONTAINS", &sourceImage), source, static_cast<std::size_t>(*r.slice));

@@ -27,6 +27,7 @@ void writeSecondaryCapture(const std::filesystem::path& file, const CapturedPict
             uidFrom(series + "/" + std::to_string(number) + "/" + sha256(p.rgb.data(), p.rgb.size())));
   root.number(DCM_InstanceNumber, number);
   root.text(DCM_ConversionType, "WSD");
+  root.text(DCM_BodyPartExamined, "LIVER");
   root.text(DCM_ImageType, "DERIVED\\SECONDARY");
   root.text(DCM_PatientOrientation, "");
   root.text(DCM_BurnedInAnnotation, identifies ? "YES" : "NO");
