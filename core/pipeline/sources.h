@@ -34,7 +34,7 @@ AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& pro
 struct MapMeaning {
   std::optional<StiffnessQuantity> quantity;
   std::optional<std::string> unit;
-  dicom::RoleOverrides roles;  ///< set by hand
+  dicom::RoleOverrides roles{};  ///< set by hand
 };
 
 struct LoadedStiffness {
