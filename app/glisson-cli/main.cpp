@@ -1,4 +1,5 @@
 // The command line: parses, calls one verb, turns exceptions into one line and an exit code.
+#include <algorithm>
 #include <clocale>
 #include <cstdio>
 #include <exception>
@@ -55,6 +56,11 @@ int main(int argc, char** argv) {
   addPropose(app, context);
   addPlan(app, context);
   addRun(app, context);
+  addCohort(app, context);
+  addExport(app, context);
+  addDeidentify(app, context);
+  addRender(app, context);
+  addReplay(app, context);
   addValidate(app, context);
   addStability(app, context);
   addTradeoff(app, context);
@@ -64,13 +70,20 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::Error& e) {
-    app.exit(e);
-    return Usage;
+    // One line; CLI11 would write a second one.
+    return report(Usage, std::string(e.what()) + " (glisson-cli --help tells what there is)");
   }
   context.seedGiven = seed->count() > 0;
 
   try {
-    setThreadCount(context.threads);
+    // More threads than cores gain nothing, and the thread library would complain in its own words.
+    if (context.threads > 0) {
+      const int cores = threadCount();
+      if (context.threads > cores)
+        context.note("note: " + std::to_string(context.threads) + " threads were asked for, " + std::to_string(cores) +
+                     (cores == 1 ? " is" : " are") + " used: one per core");
+      setThreadCount(std::min(context.threads, cores));
+    }
     return context.action();
   } catch (const BadInput& e) {
     return report(BadInputCode, e.what());

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "image/extend.h"
 #include "image/io.h"
-#include "render/maps.h"
+#include "pipeline/pictures.h"
 #include "report/html.h"
 
 namespace glisson::pipeline::detail {
@@ -20,34 +20,9 @@ using report::number;
 /// How far the tissue around the liver follows it in the pictures; beyond, nothing moves.
 constexpr double pictureMargin_mm = 40.0;
 
-std::string inWords(const Eigen::Vector3d& v) {
-  return number(v.x()) + ", " + number(v.y()) + ", " + number(v.z());
-}
-
 /// Something to warp where the scene has no image: the stiffness of the body, which is all that is known of it.
 image::ScalarVolume stiffnessAsImage(const RunResult& r) {
   return r.model.youngs_kPa;
-}
-
-/// Where the two predictions differ most in a slice, in the middle between the two places; the middle of the image
-/// where nothing moves.
-Eigen::Vector3d placeOfLargestDifference(const render::RetractionScene& p, int slice) {
-  const image::Grid& grid = p.u_mre_mm.grid;
-  const image::Grid& mri = p.mri.grid;
-  Eigen::Vector3d place = mri.indexToLps(0.5 * (mri.size - Eigen::Vector3i::Ones()).cast<double>());
-  float largest = 0.0f;
-  for (int j = 0; j < mri.size.y(); ++j)
-    for (int i = 0; i < mri.size.x(); ++i) {
-      const Eigen::Vector3d at = mri.indexToLps(Eigen::Vector3d(i, j, slice));
-      const Eigen::Vector3i liver = p.liver.grid.lpsToIndex(at).array().round().cast<int>();
-      const Eigen::Vector3i ijk = grid.lpsToIndex(at).array().round().cast<int>();
-      if (!p.liver.grid.contains(liver) || !p.liver.at(liver) || !grid.contains(ijk)) continue;
-      const Eigen::Vector3f a = p.u_mre_mm.at(ijk), b = p.u_atlas_mm.at(ijk);
-      if ((a - b).norm() <= largest) continue;
-      largest = (a - b).norm();
-      place = at + 0.5 * (a + b).cast<double>();
-    }
-  return place;
 }
 
 /// The vessel landmark that the two predictions place furthest apart; none where there are no vessels.
@@ -61,11 +36,6 @@ std::optional<Eigen::Vector3d> mostMisplacedVessel(const RunResult& r) {
       place = r.landmarks_mm[i];
     }
   return place;
-}
-
-/// The slice that holds a point.
-int sliceOf(const image::Grid& grid, const Eigen::Vector3d& p_lps) {
-  return std::clamp(static_cast<int>(std::lround(grid.lpsToIndex(p_lps).z())), 0, grid.size.z() - 1);
 }
 
 std::string caption(const Scene& scene, const RunResult& r) {
@@ -173,106 +143,27 @@ void Writer::stiffness(const elastography::Measurement& m) {
   text("stiffness.csv", csv.text());
 }
 
-void Writer::sliceOverlays(const Scene&, const Inputs&, const RunResult& r, render::Palette palette) {
-  if (!r.primary.drawable || (r.atlas && !r.atlas->drawable)) return;
-  render::SliceOverlayOptions o;
-  o.palette = palette;
-  o.margin_mm = 30.0;
-  o.zoom_mm = 60.0;
-  auto draw = [&](const std::string& name, int slice) {
-    o.slice = slice;
-    if (!o.zoomCentre_lps_mm) o.zoomCentre_lps_mm = placeOfLargestDifference(*r.picture, slice);
-    render::writePng(note(name), render::sliceOverlay(*r.picture, o));
-    o.zoomCentre_lps_mm.reset();
-  };
-  const int largest = render::sliceOfLargestDifference(*r.picture);
-  draw("overlay-largest-difference.png", largest);
+PictureData Writer::pictureData(const RunResult& r) const {
+  PictureData data{*r.picture, {}};
   if (const std::optional<Eigen::Vector3d> vessel = mostMisplacedVessel(r)) {
     // Shown where it ends up, between the two predictions.
     const Eigen::Vector3d ua = retraction::displacementAt(r.model, r.primary, {*vessel}).front();
     const Eigen::Vector3d ub = r.atlas ? retraction::displacementAt(r.model, *r.atlas, {*vessel}).front() : ua;
-    const Eigen::Vector3d moved = *vessel + 0.5 * (ua + ub);
-    o.zoomCentre_lps_mm = moved;
-    draw("overlay-vessels.png", sliceOf(r.picture->mri.grid, moved));
+    data.vessel_lps_mm = *vessel + 0.5 * (ua + ub);
   }
-  if (r.picture->retractorPoint_lps_mm)
-    draw("overlay-retractor.png", sliceOf(r.picture->mri.grid, *r.picture->retractorPoint_lps_mm));
-  render::MapOptions mapOptions{.high = 10.0};
-  mapOptions.slice = largest;
-  mapOptions.margin_mm = 30.0;
-  render::writePng(note("difference-map.png"), render::differencePicture(*r.picture, mapOptions));
+  return data;
 }
 
-void Writer::overlays3D(const RunResult& r, render::Palette palette) {
-  if (!r.primary.drawable || (r.atlas && !r.atlas->drawable)) return;
-  render::SceneOptions3D o;
-  o.palette = palette;
-  const std::pair<const char*, render::View3D> views[] = {{"overlay-3d-oblique.png", render::View3D::Oblique},
-                                                          {"overlay-3d-anterior.png", render::View3D::Anterior}};
-  for (const auto& [name, view] : views) {
-    o.view = view;
-    render::writePng(note(name), render::overlay3D(*r.picture, o));
-  }
+void Writer::pictureFile(const PictureData& data) {
+  writePictureFile(note(pictureFileName), data);
 }
 
-void Writer::report(const Scene& scene, const RunResult& r) {
-  report::HtmlReport page("Liver retraction, measured against textbook stiffness");
-  page.heading("Result");
-  std::vector<std::pair<std::string, std::string>> rows;
-  if (r.difference) {
-    const comparison::Difference& d = *r.difference;
-    rows.emplace_back("Difference over the liver, mean", number(d.mean_mm) + " mm");
-    rows.emplace_back("95 % of the liver below", number(d.p95_mm) + " mm");
-    rows.emplace_back("Largest", number(d.max_mm) + " mm");
-    rows.emplace_back("At the retractor",
-                      number(d.at_retractor_mm) + " mm" +
-                          (d.clinically_significant ? " (5 mm or more: clinically significant)" : ""));
-    if (!d.vessel_mm.empty()) {
-      rows.emplace_back("Vessel landmarks, mean", number(d.vesselMean_mm) + " mm");
-      rows.emplace_back("Vessel landmarks 5 mm or more apart", number(100 * d.vesselFractionBeyond, 3) + " %");
-    }
-  }
-  rows.emplace_back("Largest displacement", number(r.primary.max_displacement_mm) + " mm");
-  if (r.stiffness) {
-    const auto& s = r.stiffness->pooled;
-    rows.emplace_back(
-        r.stiffness->quantity == StiffnessQuantity::Shear ? "Shear modulus in the ROI" : "Young's modulus in the ROI",
-        number(s.mean_kPa) + " ± " + number(s.sd_kPa) + " kPa (" + std::to_string(s.n_before_mask) + " voxels, " +
-            std::to_string(s.n) + " after the confidence mask)");
-  }
-  page.table(rows);
-  page.heading("Can it be trusted?");
-  if (r.primary.linearTrusted)
-    page.paragraph(r.primary.kinematics == retraction::Kinematics::Linear
-                       ? "Strains and rotations are small enough for linear theory."
-                       : "The large-deformation solve converged, and no cell is turned inside out.");
-  page.list(r.primary.validity);
-  page.table(
-      {{"Solver", r.primary.solver.kind + ", relative residual " + number(r.primary.solver.residual, 2)},
-       {"Strain, largest / 95 % below", number(r.primary.max_strain, 3) + " / " + number(r.primary.p95_strain, 3)},
-       {"Largest rotation", number(r.primary.max_rotation_deg, 3) + " degrees"},
-       {"Load", inWords(r.primary.load_N) + " N"},
-       {"Reaction", inWords(r.primary.reaction_N) + " N"}});
-  if (r.discretisation) page.paragraph(r.discretisation->note);
-  page.list(r.warnings);
-  page.heading("Pictures");
-  for (const auto& f : r.files) {
-    if (f.extension() != ".png") continue;
-    const std::string name = f.filename().string();
-    page.picture(
-        f, name == "difference-map.png" ? "Distance between the two predictions, mm"
-           : name.rfind("overlay-3d", 0) == 0
-               ? "Vessels where the measured stiffness puts them (blue) and where the textbook stiffness does (red)"
-               : "The image moved by each prediction: measured stiffness in blue, textbook in red, purple where they "
-                 "agree");
-  }
-  page.heading("Method");
-  page.table({{"Volume", number(r.model.volume_mL) + " mL"},
-              {"Mass", number(r.model.mass_kg) + " kg"},
-              {"Degrees of freedom", std::to_string(r.primary.dofs)},
-              {"Poisson's ratio", number(scene.setup.poisson)},
-              {"Density", number(scene.setup.density.kgPerM3()) + " kg/m³"}});
-  text("report.html", page.html());
+void Writer::sliceOverlays(const PictureData& data, render::Palette palette) {
+  for (const auto& file : drawSlices(data, {.palette = palette}, folder_)) files_.push_back(file);
+}
+
+void Writer::overlays3D(const PictureData& data, render::Palette palette) {
+  for (const auto& file : draw3D(data, {.palette = palette}, folder_)) files_.push_back(file);
 }
 
 }  // namespace glisson::pipeline::detail

@@ -29,6 +29,7 @@ Needs::Needs(const Scene& s) {
   damping = timeSteps && (s.setup.analysis.rayleigh[0] > 0 || s.setup.analysis.rayleigh[1] > 0);
   newton = s.setup.kinematics != retraction::Kinematics::Linear;
   condensed = s.setup.condensed;
+  linearBeside = newton && report && !timeSteps;
   discretisation = !timeSteps;
   compare = s.compare.has_value();
   cellField = pictures || compare || s.outputs.displacementField;
@@ -151,6 +152,11 @@ std::vector<PlanStep> plan(const Scene& s) {
       solve_s * s.setup.analysis.end_s * 1e3 / s.setup.analysis.h_ms, solve_MB);
   add("large-deformation", n.newton, n.newton ? "the kinematics are not linear" : "the kinematics are linear",
       10 * solve_s, 2 * solve_MB);
+  add("linear-solve", n.linearBeside,
+      n.linearBeside ? "the report shows beside the answer what linear theory would have said"
+      : n.newton     ? "no report is asked for that would show it beside the answer"
+                     : "the answer is the linear one",
+      (n.compare ? 2.0 : 1.0) * solve_s, solve_MB);
   add("discretisation-error", n.discretisation,
       n.discretisation
           ? "the answer says how far its cells let it be believed: a second solve on cells of twice the edge"
@@ -170,10 +176,12 @@ std::vector<PlanStep> plan(const Scene& s) {
       1e-8 * cells);
   add("write-displacement-field", s.outputs.displacementField,
       s.outputs.displacementField ? "asked for" : "not asked for", 0.1);
+  add("picture-data", n.pictures,
+      n.pictures ? "what the pictures show is kept, so that \"render\" can draw it again" : "no picture is asked for", 0.1);
   add("slice-overlay", n.pictures, n.pictures ? "asked for" : "no picture is asked for", 1.0, 50);
   add("3d-overlay", n.pictures, n.pictures ? "asked for" : "no picture is asked for: no OpenGL is started", 4.0, 200);
   add("report", n.report, n.report ? "asked for" : "not asked for", 0.2);
-  add("sofa", false, n.sofa ? "asked for, but this version does not write SOFA scenes yet" : "not asked for");
+  add("sofa", n.sofa, n.sofa ? "asked for: the patient's node as a scene for SOFA" : "not asked for");
   return steps;
 }
 

@@ -68,34 +68,136 @@ std::string digestOf(const std::filesystem::path& path) {
   return sha256(all.data(), all.size());
 }
 
-Json inputsToJson(const Scene& scene) {
-  Json j = Json::object();
-  auto add = [&](const char* what, const std::filesystem::path& p) {
-    if (!p.empty()) j[what] = {{"sha256", digestOf(p)}};
-  };
-  add("mask", scene.geometry.file);
-  add("mri", scene.geometry.kind == GeometrySpec::Kind::Mask ? scene.geometry.background : scene.geometry.mri);
-  add("mre", scene.geometry.mre);
-  add("roi", scene.geometry.roi);
-  add("map", scene.material.map);
+Json differenceToJson(const comparison::Difference& d) {
+  return {{"mean_mm", d.mean_mm},
+          {"p95_mm", d.p95_mm},
+          {"max_mm", d.max_mm},
+          {"at_retractor_mm", d.at_retractor_mm},
+          {"clinically_significant", d.clinically_significant}};
+}
+
+Json motionToJson(const retraction::Model& model, const retraction::Result& r) {
+  const Motion m = motionOf(model, r);
+  return {
+      {"mean_displacement_mm", m.mean_mm}, {"max_displacement_mm", m.max_mm}, {"at_retractor_mm", m.at_retractor_mm},
+      {"max_strain", r.max_strain},        {"p95_strain", r.p95_strain},      {"max_rotation_deg", r.max_rotation_deg},
+      {"converged", r.solver.converged()}, {"valid", r.linearTrusted},        {"validity", r.validity}};
+}
+
+/// Linear theory and the scene's own kinematics side by side.
+Json kinematicsToJson(const RunResult& r) {
+  Json j;
+  j["linear"] = motionToJson(r.model, r.linear->primary);
+  if (r.linear->difference) j["linear"]["difference"] = differenceToJson(*r.linear->difference);
+  const std::string own = nameOf(r.primary.kinematics);
+  j[own] = motionToJson(r.model, r.primary);
+  if (r.difference) j[own]["difference"] = differenceToJson(*r.difference);
+  j["between"] = differenceToJson(r.linear->between);
+  j["between"].erase("clinically_significant");
   return j;
 }
 
-/// The scene with every default written out, and no path: inputs are known by their digest.
+/// Calls fn(JSON object, key, path) for every path of a scene.
+template <typename Fn>
+void forEachPath(const Scene& scene, Json& j, Fn&& fn) {
+  const GeometrySpec& g = scene.geometry;
+  const auto one = [&](Json& object, const char* key, const std::filesystem::path& path) {
+    if (!path.empty()) fn(object, key, path);
+  };
+  if (g.kind == GeometrySpec::Kind::Mask) {
+    one(j["geometry"], "file", g.file);
+    one(j["geometry"], "mri", g.background);
+  } else if (g.kind == GeometrySpec::Kind::Patient) {
+    one(j["geometry"], "mri", g.mri);
+    one(j["geometry"], "mre", g.mre);
+    one(j["geometry"], "roi", g.roi);
+  }
+  if (scene.material.kind == MaterialSpec::Kind::Map) one(j["material"], "map", scene.material.map);
+  const auto region = [&](Json& holder, const retraction::Region& r) {
+    if (const auto* mask = std::get_if<retraction::MaskRegion>(&r)) one(holder["region"], "mask", mask->file);
+  };
+  for (std::size_t i = 0; i < scene.setup.supports.size(); ++i)
+    region(j["supports"][i], scene.setup.supports[i].region);
+  for (std::size_t i = 0; i < scene.setup.loads.size(); ++i) {
+    if (const auto* t = std::get_if<retraction::Traction>(&scene.setup.loads[i])) region(j["loads"][i], t->region);
+    if (const auto* q = std::get_if<retraction::Pressure>(&scene.setup.loads[i])) region(j["loads"][i], q->region);
+  }
+}
+
 Json parametersToJson(const Scene& scene) {
   Json j = Json::parse(pipeline::toJson(scene));
-  for (const char* key : {"file", "mri", "mre", "roi"}) j["geometry"].erase(key);
-  j["material"].erase("map");
-  for (Json& s : j["supports"])
-    if (s["region"].contains("mask")) s["region"]["mask"] = "(file)";
-  for (Json& l : j["loads"])
-    if (l.contains("region") && l["region"].contains("mask")) l["region"]["mask"] = "(file)";
+  forEachPath(scene, j, [](Json& object, const char* key, const std::filesystem::path&) { object[key] = "(file)"; });
   return j;
 }
 
 }  // namespace
 
-std::string runRecord(const Scene& scene, const RunResult& r) {
+std::vector<std::pair<std::string, std::string>> inputDigests(const Scene& scene) {
+  std::vector<std::pair<std::string, std::string>> digests;
+  Json j = Json::parse(pipeline::toJson(scene));
+  forEachPath(scene, j, [&](Json&, const std::string& key, const std::filesystem::path& path) {
+    // Several regions may each have a mask: all are told apart by their number.
+    std::string name = scene.geometry.kind == GeometrySpec::Kind::Mask && key == "file" ? "mask" : key;
+    if (name == "mask" && key == "mask") name = "region mask";
+    int n = 1;
+    for (const auto& [other, digest] : digests)
+      if (other == name || other.rfind(name + " ", 0) == 0) ++n;
+    digests.emplace_back(n == 1 ? name : name + " " + std::to_string(n), digestOf(path));
+  });
+  return digests;
+}
+
+std::string parameters(const Scene& scene) {
+  return parametersToJson(scene).dump(1);
+}
+
+std::string sceneSeenFrom(const Scene& scene, const std::filesystem::path& folder) {
+  Json j = Json::parse(pipeline::toJson(scene));
+  forEachPath(scene, j, [&](Json& object, const char* key, const std::filesystem::path& path) {
+    std::error_code ec;
+    const std::filesystem::path seen = std::filesystem::relative(path, folder, ec);
+    object[key] = ec || seen.empty() ? std::filesystem::absolute(path).generic_string() : seen.generic_string();
+  });
+  return j.dump(2) + "\n";
+}
+
+Motion motionOf(const retraction::Model& model, const retraction::Result& result) {
+  Motion m;
+  m.max_mm = result.max_displacement_mm;
+  std::size_t cells = 0;
+  for (std::size_t i = 0; i < model.youngs_kPa.values.size(); ++i) {
+    if (!(model.youngs_kPa.values[i] > 0.0f)) continue;
+    m.mean_mm += static_cast<double>(result.u_mm.values[i].norm());
+    ++cells;
+  }
+  if (cells > 0) m.mean_mm /= static_cast<double>(cells);
+  for (const int node : result.contactNodes)
+    m.at_retractor_mm += 1e3 * result.nodal_u_m.col(node).norm() / static_cast<double>(result.contactNodes.size());
+  return m;
+}
+
+std::string nameOf(retraction::Kinematics kinematics) {
+  return kinematics == retraction::Kinematics::Linear         ? "linear"
+         : kinematics == retraction::Kinematics::Corotational ? "corotational"
+                                                              : "hyperelastic";
+}
+
+std::string adviceOn(const retraction::Result& r) {
+  if (r.kinematics != retraction::Kinematics::Linear || r.linearTrusted || !r.solver.converged()) return {};
+  if (r.p95_strain >= 0.10)
+    return "Choose \"kinematics\": \"hyperelastic\". Linear theory adds up strains as if they were small and keeps the "
+           "stiffness and the shape on which the load acts as they are at rest; the hyperelastic (neo-Hookean) body is "
+           "solved in its deformed shape and stiffens as it is compressed. Displacements at the retractor change most. "
+           "The report then shows both answers side by side.";
+  if (r.max_rotation_deg >= 15)
+    return "Choose \"kinematics\": \"corotational\". Linear theory takes rotation for strain; corotational elements "
+           "turn with the material and strain it only by what is left. Where the tissue turns, it no longer swells, "
+           "and "
+           "displacements there change. The report then shows both answers side by side.";
+  return "Choose \"kinematics\": \"hyperelastic\": the linear answer is no deformation of this body.";
+}
+
+std::string runRecord(const Scene& scene, const RunResult& r, render::Palette palette) {
   Json j;
   j["schema"] = "glisson/run/1";
   j["note"] = researchUseOnly;
@@ -125,13 +227,11 @@ std::string runRecord(const Scene& scene, const RunResult& r) {
     }
   }
   if (r.atlas) j["atlas"] = resultToJson(*r.atlas, scene);
+  if (const std::string advice = adviceOn(r.primary); !advice.empty()) j["advice"] = advice;
+  if (r.linear) j["kinematics_compared"] = kinematicsToJson(r);
   if (r.difference) {
     const comparison::Difference& d = *r.difference;
-    j["difference"] = {{"mean_mm", d.mean_mm},
-                       {"p95_mm", d.p95_mm},
-                       {"max_mm", d.max_mm},
-                       {"at_retractor_mm", d.at_retractor_mm},
-                       {"clinically_significant", d.clinically_significant}};
+    j["difference"] = differenceToJson(d);
     if (!d.vessel_mm.empty())
       j["difference"]["vessels"] = {{"landmarks", d.vessel_mm.size()},
                                     {"mean_mm", d.vesselMean_mm},
@@ -153,12 +253,27 @@ std::string runRecord(const Scene& scene, const RunResult& r) {
   j["constants"] = {{"gravity_m_s2", defaults::gravity_m_s2},
                     {"clinically_significant_mm", defaults::clinicallySignificant.mm()},
                     {"confidence_threshold", defaults::confidenceThreshold}};
-  j["inputs"] = inputsToJson(scene);
+  j["inputs"] = Json::object();
+  for (const auto& [name, digest] : inputDigests(scene)) j["inputs"][name] = {{"sha256", digest}};
   j["seed"] = scene.setup.seed;
+  // All that is above but what differs from run to run of one program: times, memory and what was written.
+  Json lasting = j;
+  for (const char* key : {"plan", "version", "commit"}) lasting.erase(key);
+  const auto forgetSeconds = [](Json& of) {
+    if (of.contains("solver")) of["solver"].erase("seconds");
+  };
+  forgetSeconds(lasting);
+  if (lasting.contains("atlas")) forgetSeconds(lasting["atlas"]);
+  const std::string text = lasting.dump();
+  j["results_sha256"] = sha256(text.data(), text.size());
   j["threads"] = threadCount();
-  Json files = Json::array();
-  for (const auto& f : r.files) files.push_back(f.filename().string());
-  j["files"] = files;
+  j["palette"] = palette == render::Palette::RedBlue ? "red-blue" : "colour-blind";
+  j["outputs"] = Json::array();
+  j["files"] = Json::array({"run.json"});
+  for (const auto& f : r.files) {
+    j["outputs"].push_back({{"file", f.filename().string()}, {"sha256", sha256OfFile(f)}});
+    j["files"].push_back(f.filename().string());
+  }
   return j.dump(1);
 }
 

@@ -11,6 +11,7 @@
 #include "anatomy/vessels.h"
 #include "base/error.h"
 #include "elastography/statistics.h"
+#include "exchange/sofa.h"
 #include "image/io.h"
 #include "pipeline/detail/build_model.h"
 #include "pipeline/detail/needs.h"
@@ -123,8 +124,6 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     loaded = loadInputs(scene, progress.part(0.0, 0.05));
   const Inputs& inputs = given ? *given : loaded;
   r.warnings = inputs.warnings;
-  if (needs.sofa)
-    r.warnings.push_back("\"sofa\" was asked for, but this version does not write SOFA scenes: nothing was exported");
   steps.noteReading(given ? std::vector<std::pair<std::string, double>>{} : inputs.seconds);
 
   steps.run("measure-stiffness", [&](const Progress&) {
@@ -170,6 +169,21 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     });
   }
 
+  steps.run("linear-solve", [&](const Progress& p) {
+    retraction::Setup setup = scene.setup;
+    setup.kinematics = retraction::Kinematics::Linear;
+    LinearBeside linear;
+    linear.primary = retraction::simulate(r.model, setup, scene.outputs.probes_mm, p.part(0.0, r.atlas ? 0.5 : 1.0));
+    linear.between = comparison::compare(r.model, r.primary, linear.primary, {});
+    if (scene.compare) {
+      linear.atlas = detail::sameStiffness(r.model, atlasModel)
+                         ? linear.primary
+                         : retraction::simulate(atlasModel, setup, scene.outputs.probes_mm, p.part(0.5, 1.0));
+      linear.difference = comparison::compare(r.model, linear.primary, *linear.atlas, {});
+    }
+    r.linear = std::move(linear);
+  });
+
   anatomy::VesselModel vessels;
   steps.run("vessels", [&](const Progress& p) { vessels = anatomy::findVessels(*inputs.mri, *inputs.liver, p); });
   r.landmarks_mm = vessels.centreline_lps_mm;
@@ -185,15 +199,31 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     steps.run("write-displacement-field", [&](const Progress&) { writer.displacementFields(r); });
     if (scene.outputs.vessels && needs.vessels) writer.vessels(scene, r, vessels);
     if (r.stiffness) writer.stiffness(*r.stiffness);
-    steps.run("slice-overlay", [&](const Progress&) { writer.sliceOverlays(scene, inputs, r, options.palette); });
-    steps.run("3d-overlay", [&](const Progress&) { writer.overlays3D(r, options.palette); });
-    steps.run("report", [&](const Progress&) { writer.report(scene, r); });
+    if (needs.pictures) {
+      const PictureData data = writer.pictureData(r);
+      steps.run("picture-data", [&](const Progress&) { writer.pictureFile(data); });
+      steps.run("slice-overlay", [&](const Progress&) { writer.sliceOverlays(data, options.palette); });
+      try {
+        steps.run("3d-overlay", [&](const Progress&) { writer.overlays3D(data, options.palette); });
+      } catch (const RenderUnavailable& e) {
+        // Everything but these pictures is there already; losing it for want of OpenGL would be worse than saying so.
+        r.warnings.push_back(std::string("no 3-D picture was drawn: ") + e.what());
+        steps.leaveOut("3d-overlay", "it cannot be drawn here");
+      }
+    }
+    steps.run("sofa", [&](const Progress&) {
+      const exchange::SofaExport node = exchange::writeSofa(options.output / "sofa", r.model, scene.setup,
+                                                            {vessels.centreline_lps_mm, vessels.edges});
+      r.files.insert(r.files.end(), node.files.begin(), node.files.end());
+      for (const std::string& n : node.notes) r.warnings.push_back("SOFA: " + n);
+    });
+    steps.run("report", [&](const Progress&) { writer.report(scene, r, detail::inputDigests(scene)); });
+    r.json = detail::runRecord(scene, r, options.palette);
     r.files.insert(r.files.begin(), options.output / "run.json");
-    r.json = detail::runRecord(scene, r);
     writer.text("run.json", r.json + "\n");
-    writer.text("scene.json", toJson(scene));
+    writer.text("scene.json", detail::sceneSeenFrom(scene, options.output));
   } else {
-    r.json = detail::runRecord(scene, r);
+    r.json = detail::runRecord(scene, r, options.palette);
   }
   progress.report(1.0, "done");
   return r;

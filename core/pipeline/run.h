@@ -23,6 +23,14 @@ struct RunOptions {
   bool discretisation = true;  ///< false: a study that measures errors itself does without the estimate
 };
 
+/// What linear theory says beside non-linear kinematics: same body, same load.
+struct LinearBeside {
+  retraction::Result primary;
+  std::optional<retraction::Result> atlas;
+  std::optional<comparison::Difference> difference;  ///< MRE against atlas, both linear
+  comparison::Difference between;                    ///< the scene's own kinematics against linear, MRE stiffness
+};
+
 /// What one run gives. What was not asked for is empty.
 struct RunResult {
   std::vector<PlanStep> plan;  ///< with the seconds each step took
@@ -31,6 +39,7 @@ struct RunResult {
   std::optional<retraction::Result> atlas;                        ///< where the scene compares
   std::optional<retraction::DiscretisationError> discretisation;  ///< of primary
   std::optional<comparison::Difference> difference;
+  std::optional<LinearBeside> linear;                  ///< where a report of large deformation is asked for
   std::vector<Eigen::Vector3d> landmarks_mm;           ///< vessel centrelines at rest, LPS
   std::optional<elastography::Measurement> stiffness;  ///< over the region of interest, where MRE is used
   std::optional<render::RetractionScene> picture;      ///< what the overlays draw, where they are asked for

@@ -50,7 +50,10 @@ constexpr const char* style =
     "body{font:16px/1.5 system-ui,'DejaVu Sans',sans-serif;max-width:62rem;margin:2rem auto;padding:0 "
     "1rem;color:#1b1f24}"
     "h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2rem;border-bottom:1px solid #d0d7de}"
-    "table{border-collapse:collapse}td{padding:.2rem 1.2rem .2rem 0;vertical-align:top;border-bottom:1px solid #eaeef2}"
+    "table{border-collapse:collapse;margin:.6rem "
+    "0}th{text-align:left;padding:.2rem 1.2rem .2rem 0;border-bottom:2px solid #d0d7de}"
+    ".wide td,.wide th{font-size:.92rem;overflow-wrap:anywhere}.warning{background:#fff4e5;border-left:4px solid "
+    "#d97706;padding:.5rem .8rem}td{padding:.2rem 1.2rem .2rem 0;vertical-align:top;border-bottom:1px solid #eaeef2}"
     "td:last-child{font-variant-numeric:tabular-nums}figure{margin:1rem 0}img{max-width:100%}"
     "figcaption{color:#57606a;font-size:.9rem}footer{margin-top:3rem;color:#9a1c1c;font-weight:600}";
 
@@ -77,6 +80,25 @@ void HtmlReport::table(const std::vector<std::pair<std::string, std::string>>& r
   for (const auto& [what, value] : rows)
     body_ += "<tr><td>" + escaped(what) + "</td><td>" + escaped(value) + "</td></tr>\n";
   body_ += "</table>\n";
+}
+
+void HtmlReport::table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
+  body_ += "<table class=\"wide\">\n<tr>";
+  for (const std::string& cell : header) body_ += "<th>" + escaped(cell) + "</th>";
+  body_ += "</tr>\n";
+  for (const auto& row : rows) {
+    if (row.size() != header.size())
+      throw BadArgument("HtmlReport: a row has " + std::to_string(row.size()) + " cells, not " +
+                        std::to_string(header.size()));
+    body_ += "<tr>";
+    for (const std::string& cell : row) body_ += "<td>" + escaped(cell) + "</td>";
+    body_ += "</tr>\n";
+  }
+  body_ += "</table>\n";
+}
+
+void HtmlReport::warning(const std::string& text) {
+  body_ += "<p class=\"warning\">" + escaped(text) + "</p>\n";
 }
 
 void HtmlReport::picture(const std::filesystem::path& png, const std::string& caption) {

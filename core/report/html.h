@@ -17,6 +17,11 @@ class HtmlReport {
   void list(const std::vector<std::string>& items);
   /// Two columns: what and value with unit.
   void table(const std::vector<std::pair<std::string, std::string>>& rows);
+  /// Any number of columns; the first cell of a row says what it is. Throws BadArgument where a row is not as long as
+  /// the header.
+  void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
+  /// A reservation that must not be overlooked.
+  void warning(const std::string& text);
   /// A PNG file with a caption, put into the page. Throws BadInput where it cannot be read.
   void picture(const std::filesystem::path& png, const std::string& caption);
 

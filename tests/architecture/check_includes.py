@@ -29,6 +29,7 @@ MAY = {
                  "render", "report", "exchange"],
     "study": ["base", "image", "dicom", "roi", "elastography", "inversion", "anatomy", "mechanics", "retraction", "comparison",
               "render", "report", "exchange", "pipeline", "phantom"],
+    "cohort": ["base", "image", "dicom", "pipeline", "render", "report"],
 }
 THIRD_PARTY = re.compile(r"^(vtk|itk|dcmtk/|CGAL/|Q[A-Z]|nlohmann/|tbb/|CLI/|cholmod|openssl/|libigtl)")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')

@@ -18,7 +18,8 @@ struct Needs {
   bool mass = false;  ///< mass matrix
   bool damping = false;
   bool timeSteps = false;
-  bool newton = false;  ///< non-linear kinematics
+  bool newton = false;        ///< non-linear kinematics
+  bool linearBeside = false;  ///< the linear answer too, where a report of non-linear kinematics is asked for
   bool condensed = false;
   bool compare = false;
   bool discretisation = false;  ///< error in millimetres from a second grid

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "anatomy/vessels.h"
+#include "pipeline/picture_file.h"
 #include "pipeline/run.h"
 
 namespace glisson::pipeline::detail {
@@ -23,9 +25,12 @@ class Writer {
   void displacementFields(const RunResult& r);
   void vessels(const Scene& scene, const RunResult& r, const anatomy::VesselModel& vessels);
   void stiffness(const elastography::Measurement& m);
-  void sliceOverlays(const Scene& scene, const Inputs& inputs, const RunResult& r, render::Palette palette);
-  void overlays3D(const RunResult& r, render::Palette palette);
-  void report(const Scene& scene, const RunResult& r);
+  PictureData pictureData(const RunResult& r) const;
+  void pictureFile(const PictureData& data);
+  void sliceOverlays(const PictureData& data, render::Palette palette);
+  void overlays3D(const PictureData& data, render::Palette palette);
+  /// inputs: name and SHA-256 of each input, for the manifest.
+  void report(const Scene& scene, const RunResult& r, const std::vector<std::pair<std::string, std::string>>& inputs);
 
  private:
   std::filesystem::path note(const std::string& name);

@@ -1,0 +1,271 @@
+#include "cohort/cohort.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/error.h"
+#include "base/sha256.h"
+#include "base/version.h"
+#include "cohort/detail/summary.h"
+#include "cohort/processes.h"
+#include "report/html.h"
+
+namespace glisson::cohort {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Patient {
+  PatientFolder place;
+  PatientFiles files;
+  std::string scene;    ///< JSON; empty where it was refused
+  std::string refused;  ///< why
+  std::string key;
+};
+
+Patient prepare(const PatientFolder& place, const std::optional<std::string>& sceneTemplate) {
+  Patient p;
+  p.place = place;
+  try {
+    p.files = findFiles(place.folder);
+    p.scene = sceneOf(place.folder, sceneTemplate);
+  } catch (const BadInput& e) {
+    p.refused = detail::anonymous(e.what(), place.folder, place.id);
+  }
+  const std::string all = digestOfFolder(place.folder) + (p.scene.empty() ? "" : detail::withoutPaths(p.scene)) +
+                          (sceneTemplate ? *sceneTemplate : "") + version();
+  p.key = sha256(all.data(), all.size());
+  return p;
+}
+
+std::optional<std::string> templateText(const CohortOptions& options) {
+  if (!options.scene) return {};
+  if (!fs::is_regular_file(*options.scene))
+    throw BadInput("the template scene is not there; give --scene a scene file");
+  return readWhole(*options.scene);
+}
+
+fs::path resultOf(const fs::path& output, const std::string& id) {
+  return output / "cases" / id / "result.json";
+}
+
+/// What was computed before and still holds. Failures are tried again.
+std::optional<CaseRecord> stillGood(const fs::path& output, const Patient& p) {
+  if (!fs::is_regular_file(resultOf(output, p.place.id))) return {};
+  std::optional<CaseRecord> r = parseRecord(readWhole(resultOf(output, p.place.id)));
+  if (!r || r->key != p.key || r->outcome.status == CaseOutcome::Status::Failed) return {};
+  return r;
+}
+
+CaseOutcome outcomeOf(const std::string& id, const JobOutcome& o, const fs::path& folder) {
+  CaseOutcome out;
+  out.id = id;
+  if (o.exitCode == 0) {
+    out.status = CaseOutcome::Status::Done;
+  } else if (o.exitCode == 3) {
+    out.status = CaseOutcome::Status::Rejected;
+    out.reason = detail::anonymous(o.message, folder, id);
+  } else {
+    out.status = CaseOutcome::Status::Failed;
+    out.reason = o.signal != 0 ? "the program was ended by signal " + std::to_string(o.signal) +
+                                     (o.signal == 9 ? " (out of memory?); try fewer --jobs" : "")
+                               : detail::anonymous(o.message, folder, id);
+    if (out.reason.empty()) out.reason = "the program ended with exit code " + std::to_string(o.exitCode);
+  }
+  return out;
+}
+
+void writeTimings(const fs::path& output, const std::map<std::string, std::pair<double, double>>& spent) {
+  report::Csv csv({"case", "seconds", "peak_MB"});
+  for (const auto& [id, s] : spent) csv.row({id, report::number(s.first, 4), report::number(s.second, 4)});
+  writeWhole(output / "timings.csv", csv.text());
+}
+
+/// Measures and retracts every patient that has no result yet.
+std::vector<CaseOutcome> runPatients(const std::vector<Patient>& patients, const CohortOptions& options,
+                                     const Progress& progress) {
+  std::map<std::string, CaseOutcome> outcomes;
+  std::vector<Job> jobs;
+  std::vector<std::size_t> patientOf;
+  const detail::PrivateFolder work;
+  const int parallel = options.jobs > 0 ? options.jobs : jobsThatFit(expectedPeak_MB);
+  const std::string threads = std::to_string(threadsEach(parallel));
+  for (std::size_t i = 0; i < patients.size(); ++i) {
+    const Patient& p = patients[i];
+    if (auto r = stillGood(options.output, p)) {
+      r->outcome.resumed = true;
+      outcomes[p.place.id] = r->outcome;
+      continue;
+    }
+    if (p.scene.empty()) {
+      CaseRecord r = recordOf(p.place.id, p.key, "", "");
+      r.outcome = {CaseOutcome::Status::Rejected, p.place.id, p.refused, false};
+      writeWhole(resultOf(options.output, p.place.id), toJson(r));
+      outcomes[p.place.id] = r.outcome;
+      continue;
+    }
+    const fs::path scene = work.path() / (p.place.id + ".json");
+    writeWhole(scene, p.scene);
+    jobs.push_back({p.place.id + " measure",
+                    {"measure", "--mre", p.files.mre.string(), "--roi", p.files.roi.string(), "--mri",
+                     p.files.mri.string(), "--json", "--quiet", "--threads", threads}});
+    jobs.push_back({p.place.id,
+                    {"run", scene.string(), "--output", (work.path() / p.place.id).string(), "--json", "--quiet",
+                     "--threads", threads}});
+    patientOf.insert(patientOf.end(), {i, i});
+  }
+  std::vector<JobOutcome> ended(jobs.size());
+  std::vector<bool> there(jobs.size(), false);
+  std::map<std::string, std::pair<double, double>> spent;
+  runJobs(
+      options.executable, jobs, parallel,
+      [&](std::size_t i, const JobOutcome& o) {
+        ended[i] = o;
+        there[i] = true;
+        const std::size_t first = i - i % 2;
+        if (!there[first] || !there[first + 1]) return;
+        const Patient& p = patients[patientOf[i]];
+        const JobOutcome &measured = ended[first], &retracted = ended[first + 1];
+        CaseRecord r = recordOf(p.place.id, p.key, measured.exitCode == 0 ? measured.standardOutput : "",
+                                retracted.exitCode == 0 ? retracted.standardOutput : "");
+        for (std::string& w : r.warnings) w = detail::anonymous(w, p.place.folder, p.place.id);
+        r.outcome = outcomeOf(p.place.id, retracted, p.place.folder);
+        writeWhole(resultOf(options.output, p.place.id), toJson(r));
+        outcomes[p.place.id] = r.outcome;
+        spent[p.place.id] = {measured.seconds + retracted.seconds, std::max(measured.peak_MB, retracted.peak_MB)};
+        ended[first] = ended[first + 1] = {};
+        std::error_code ignored;
+        fs::remove_all(work.path() / p.place.id, ignored);
+      },
+      progress);
+  if (!spent.empty()) writeTimings(options.output, spent);
+  std::vector<CaseOutcome> out;
+  for (const Patient& p : patients) out.push_back(outcomes[p.place.id]);
+  return out;
+}
+
+detail::Summary summarise(const CohortOptions& options, const std::set<std::string>& ids) {
+  detail::Summary s;
+  for (CaseRecord& r : readRecords(options.output))
+    if (ids.count(r.outcome.id)) s.records.push_back(std::move(r));
+  s.stiffness = stiffnessStudy(s.records, options.asPublished);
+  s.retraction = retractionStudy(s.records);
+  s.chosen = chooseCases(s.records);
+  return s;
+}
+
+/// The chosen four, the figures and the report.
+void finish(CohortResult& result, detail::Summary& summary, const std::map<std::string, std::string>& scenes,
+            const CohortOptions& options, const Progress& progress) {
+  for (const CaseRecord& r : summary.records)
+    if (r.outcome.status == CaseOutcome::Status::Done && summary.sceneParameters.empty() && scenes.count(r.outcome.id))
+      summary.sceneParameters = detail::withoutPaths(scenes.at(r.outcome.id));
+  detail::studyChosen(summary, scenes, options, progress);
+  const std::vector<fs::path> files = detail::writeSummary(summary, options, result.json);
+  result.files.insert(result.files.end(), files.begin(), files.end());
+}
+
+void checkOptions(const CohortOptions& options) {
+  if (options.output.empty()) throw BadArgument("cohort: no output folder");
+  if (options.shards < 1 || options.shard < 1 || options.shard > options.shards)
+    throw BadInput("a shard is i/n with 1 ≤ i ≤ n, e.g. --shard 2/8");
+}
+
+}  // namespace
+
+bool CohortResult::complete() const {
+  return std::all_of(cases.begin(), cases.end(),
+                     [](const CaseOutcome& c) { return c.status == CaseOutcome::Status::Done; });
+}
+
+CohortResult runCohort(const fs::path& folder, const CohortOptions& options, const Progress& progress) {
+  checkOptions(options);
+  const std::vector<PatientFolder> all = findPatients(folder);
+  const std::optional<std::string> sceneTemplate = templateText(options);
+  std::vector<Patient> patients;
+  for (const PatientFolder& place : all) {
+    if ((place.number - 1) % options.shards != options.shard - 1) continue;
+    progress.report(0.05 * place.number / static_cast<double>(all.size()), "reading " + place.id);
+    patients.push_back(prepare(place, sceneTemplate));
+  }
+  CohortResult result;
+  const bool whole = options.shards == 1;
+  result.cases = runPatients(patients, options, progress.part(0.05, whole ? 0.8 : 1.0));
+  for (const CaseOutcome& c : result.cases) result.files.push_back(resultOf(options.output, c.id));
+  // What a shard must be put together with.
+  writeWhole(options.output / "shard.json", Json({{"schema", "glisson/cohort-shard/1"},
+                                                  {"shard", options.shard},
+                                                  {"shards", options.shards},
+                                                  {"patients", all.size()}})
+                                                    .dump(1) +
+                                                "\n");
+  if (!whole) return result;
+  std::set<std::string> ids;
+  std::map<std::string, std::string> scenes;
+  for (const Patient& p : patients) {
+    ids.insert(p.place.id);
+    if (!p.scene.empty()) scenes[p.place.id] = p.scene;
+  }
+  detail::Summary summary = summarise(options, ids);
+  finish(result, summary, scenes, options, progress.part(0.8, 1.0));
+  return result;
+}
+
+CohortResult mergeCohort(const std::vector<fs::path>& shards, const fs::path& folder, const CohortOptions& options,
+                         const Progress& progress) {
+  checkOptions(options);
+  std::set<int> seen;
+  std::size_t expected = 0, patients = 0;
+  std::set<std::string> ids;
+  for (const fs::path& shard : shards) {
+    const Json j = Json::parse(readWhole(shard / "shard.json"), nullptr, false);
+    if (!j.is_object() || j.value("schema", "") != "glisson/cohort-shard/1")
+      throw BadInput("'" + shard.filename().string() +
+                     "' holds no finished shard; run cohort --shard i/n into it first");
+    if (expected != 0 && (expected != j["shards"] || patients != j["patients"]))
+      throw BadInput("the shards are of different cohorts: they disagree on the number of shards or patients");
+    expected = j["shards"];
+    patients = j["patients"];
+    seen.insert(j["shard"].get<int>());
+    for (const CaseRecord& r : readRecords(shard)) {
+      const std::string text = readWhole(resultOf(shard, r.outcome.id));
+      const fs::path target = resultOf(options.output, r.outcome.id);
+      if (ids.count(r.outcome.id) && readWhole(target) != text)
+        throw BadInput("two shards hold different results for " + r.outcome.id + "; run one of them again");
+      writeWhole(target, text);
+      ids.insert(r.outcome.id);
+    }
+  }
+  if (seen.size() != expected || ids.size() != patients)
+    throw BadInput("shards are missing: " + std::to_string(seen.size()) + " of " + std::to_string(expected) +
+                   " were given, with " + std::to_string(ids.size()) + " of " + std::to_string(patients) + " patients");
+  writeWhole(
+      options.output / "shard.json",
+      Json({{"schema", "glisson/cohort-shard/1"}, {"shard", 1}, {"shards", 1}, {"patients", patients}}).dump(1) + "\n");
+  CohortResult result;
+  detail::Summary summary = summarise(options, ids);
+  for (const CaseRecord& r : summary.records) {
+    result.cases.push_back(r.outcome);
+    result.files.push_back(resultOf(options.output, r.outcome.id));
+  }
+  std::map<std::string, std::string> scenes;
+  if (!folder.empty()) {
+    const std::optional<std::string> sceneTemplate = templateText(options);
+    for (const PatientFolder& place : findPatients(folder)) {
+      const bool chosen =
+          std::any_of(summary.chosen.begin(), summary.chosen.end(), [&](const Chosen& c) { return c.id == place.id; });
+      const auto first = std::find_if(summary.records.begin(), summary.records.end(), [](const CaseRecord& r) {
+        return r.outcome.status == CaseOutcome::Status::Done;
+      });
+      if (chosen || (first != summary.records.end() && first->outcome.id == place.id))
+        scenes[place.id] = sceneOf(place.folder, sceneTemplate);
+    }
+  }
+  finish(result, summary, scenes, options, progress);
+  return result;
+}
+
+}  // namespace glisson::cohort

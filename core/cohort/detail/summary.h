@@ -1,0 +1,68 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "cohort/patients.h"
+#include "cohort/records.h"
+#include "cohort/statistics.h"
+
+namespace glisson::cohort::detail {
+
+/// One assumption changed, on one patient.
+struct Variation {
+  std::string name;   ///< "abdomen half as stiff", ...; "as simulated" is the baseline
+  std::string scene;  ///< scene JSON
+};
+/// The baseline and every assumption that the paper leaves open, one at a time.
+std::vector<Variation> variations(const std::string& sceneJson);
+
+/// What a variation gave on one of the chosen patients; NaN where it did not come to an end.
+struct SensitivityRow {
+  std::string variation, id;
+  double mean_mm = 0.0, at_retractor_mm = 0.0;
+};
+
+/// Everything that the summary shows.
+struct Summary {
+  std::vector<CaseRecord> records;
+  StiffnessStudy stiffness;
+  RetractionStudy retraction;
+  std::vector<Chosen> chosen;
+  std::vector<SensitivityRow> sensitivity;
+  std::map<std::string, std::vector<std::filesystem::path>> pictures;  ///< per chosen patient
+  std::string sceneParameters;  ///< scene JSON without paths, of the first patient that is left
+};
+
+/// Runs the chosen patients again, with pictures and with every variation, where that is not done yet.
+/// scenes: scene JSON per id. Fills sensitivity and pictures.
+void studyChosen(Summary& summary, const std::map<std::string, std::string>& scenes, const CohortOptions& options,
+                 const Progress& progress);
+
+/// Writes figures, tables, cohort.json and report.html; returns the files and sets json.
+std::vector<std::filesystem::path> writeSummary(const Summary& summary, const CohortOptions& options,
+                                                std::string& json);
+
+/// A folder of one's own for scenes with paths in them, removed with the object.
+class PrivateFolder {
+ public:
+  PrivateFolder();
+  ~PrivateFolder();
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The scene without its paths: what may stand in a result, and what the key of a result is made of.
+std::string withoutPaths(const std::string& sceneJson);
+
+/// A command's last message without the program's name, the patient's folder and its name.
+std::string anonymous(std::string message, const std::filesystem::path& folder, const std::string& id);
+
+}  // namespace glisson::cohort::detail

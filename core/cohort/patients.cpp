@@ -1,0 +1,141 @@
+#include "cohort/patients.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/sha256.h"
+#include "dicom/series.h"
+#include "pipeline/scene.h"
+
+namespace glisson::cohort {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::vector<fs::path> filesBelow(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied))
+    if (entry.is_regular_file() && !entry.is_symlink()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string lower(std::string s) {
+  for (char& c : s) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return s;
+}
+
+bool endsWith(const std::string& s, const std::string& end) {
+  return s.size() >= end.size() && s.compare(s.size() - end.size(), end.size(), end) == 0;
+}
+
+bool looksLikeMask(const fs::path& file) {
+  const std::string name = lower(file.filename().string());
+  const bool volume = endsWith(name, ".nii") || endsWith(name, ".nii.gz") || endsWith(name, ".nrrd") ||
+                      endsWith(name, ".mha") || endsWith(name, ".mhd");
+  for (const char* word : {"roi", "mask", "liver", "seg"})
+    if (volume && name.find(word) != std::string::npos) return true;
+  return false;
+}
+
+fs::path findRegion(const fs::path& folder) {
+  for (const char* name : {"roi.json", "contours.json"})
+    if (fs::is_regular_file(folder / name)) return folder / name;
+  // Contours drawn elsewhere: the scan skips them as images and says what they are.
+  const dicom::ScanResult scan = dicom::scan(folder);
+  for (const char* kind : {"RT Structure Set", "Segmentation"})
+    for (const dicom::SkippedFile& f : scan.skipped)
+      if (f.reason.find(std::string("is ") + (kind[0] == 'R' ? "an " : "a ") + kind) != std::string::npos)
+        return f.file;
+  for (const fs::path& f : filesBelow(folder))
+    if (looksLikeMask(f)) return f;
+  throw BadInput(
+      "no region of interest was found; put contours (RT Structure Set, roi.json) or a mask (*mask*.nii.gz) "
+      "into the patient's folder");
+}
+
+/// What the paper simulates: springs over the posterior and superior surface, the liver's weight on a 10 mm bar.
+Json paperRetraction() {
+  return Json::parse(R"({
+    "schema": "glisson/scene/1", "geometry": {}, "material": "mre",
+    "supports": [
+      {"region": {"surface": "posterior"}, "kind": "spring", "stiffness_kPa_per_mm": 0.1},
+      {"region": {"surface": "superior"}, "kind": "spring", "stiffness_kPa_per_mm": 0.1}],
+    "loads": [{"kind": "retractor", "diameter_mm": 10, "length_mm": 80, "at": "inferior-right-lobe",
+               "force": "liver-weight", "direction": "transverse"}],
+    "model": {"kind": "fem-hex"}, "compare": {"against": "atlas"}, "seed": 1})");
+}
+
+std::string readText(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw BadInput("cannot read '" + file.filename().string() + "'");
+  return text.str();
+}
+
+}  // namespace
+
+std::vector<PatientFolder> findPatients(const fs::path& cohort) {
+  if (!fs::is_directory(cohort))
+    throw BadInput("the cohort must be a folder that holds one folder per patient; this one is not there");
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(cohort)) {
+    if (!entry.is_directory() || entry.is_symlink() || entry.path().filename().string().front() == '.') continue;
+    if (!filesBelow(entry.path()).empty()) folders.push_back(fs::absolute(entry.path()));
+  }
+  if (folders.empty())
+    throw BadInput("no patient was found: the cohort's folder must hold one folder per patient, with files in it");
+  std::sort(folders.begin(), folders.end());
+  const std::size_t digits = std::max<std::size_t>(3, std::to_string(folders.size()).size());
+  std::vector<PatientFolder> out;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const std::string number = std::to_string(i + 1);
+    out.push_back({static_cast<int>(i + 1), "case-" + std::string(digits - number.size(), '0') + number, folders[i]});
+  }
+  return out;
+}
+
+std::string digestOfFolder(const fs::path& folder) {
+  std::string all;
+  for (const fs::path& f : filesBelow(folder))
+    all += f.lexically_relative(folder).generic_string() + '\0' + sha256OfFile(f) + '\n';
+  return sha256(all.data(), all.size());
+}
+
+PatientFiles findFiles(const fs::path& folder) {
+  if (fs::is_regular_file(folder / "scene.json")) {
+    const pipeline::Scene scene = pipeline::readScene(folder / "scene.json");
+    if (scene.geometry.kind != pipeline::GeometrySpec::Kind::Patient)
+      throw BadInput("the patient's scene.json must have a geometry of kind \"patient\" (mri, mre, roi)");
+    return {scene.geometry.mri, scene.geometry.mre, scene.geometry.roi};
+  }
+  return {folder, folder, findRegion(folder)};
+}
+
+std::string sceneOf(const fs::path& folder, const std::optional<std::string>& sceneTemplate) {
+  const bool own = fs::is_regular_file(folder / "scene.json");
+  Json j;
+  if (sceneTemplate)
+    j = Json::parse(*sceneTemplate, nullptr, true, true);
+  else
+    j = own ? Json::parse(readText(folder / "scene.json"), nullptr, true, true) : paperRetraction();
+  const PatientFiles files = findFiles(folder);
+  Json geometry = own ? Json::parse(readText(folder / "scene.json"), nullptr, true, true)["geometry"] : Json::object();
+  geometry["kind"] = "patient";
+  geometry["mri"] = fs::absolute(files.mri).string();
+  geometry["mre"] = fs::absolute(files.mre).string();
+  geometry["roi"] = fs::absolute(files.roi).string();
+  j["geometry"] = geometry;
+  j["outputs"] = Json::array();
+  if (!j.contains("compare")) j["compare"] = {{"against", "atlas"}};
+  // Read once, so that a bad scene is refused here and every default is written out.
+  return pipeline::toJson(pipeline::parseScene(j.dump(), folder));
+}
+
+}  // namespace glisson::cohort

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cohort/records.h"
+
+namespace glisson::cohort {
+
+/// Mean, standard deviation (n − 1) and order statistics of finite values; NaN where there are none.
+struct Spread {
+  std::size_t n = 0;
+  double mean = 0.0, sd = 0.0, median = 0.0, min = 0.0, max = 0.0;
+};
+Spread spreadOf(const std::vector<double>& values);
+
+/// Study 1: stiffness over the cohort against the textbook value.
+struct StiffnessStudy {
+  bool asPublished = false;  ///< Young's modulus against 2.1 kPa; else shear modulus against 2.1 kPa
+  double atlas_kPa = 2.1;
+  std::vector<double> values_kPa;  ///< one per measured patient
+  Spread spread;
+  double fractionOver1kPa = 0.0;   ///< of patients more than 1 kPa above the atlas
+  double fractionOverTwice = 0.0;  ///< of patients more than twice the atlas
+};
+StiffnessStudy stiffnessStudy(const std::vector<CaseRecord>& records, bool asPublished);
+
+/// Study 2: where the two retractions place the liver.
+struct RetractionStudy {
+  std::size_t tried = 0, rejected = 0, failed = 0, left = 0;
+  std::vector<double> mean_mm, at_retractor_mm;  ///< one per patient that is left
+  Spread mean, atRetractor;
+  double fractionWithinVoxel = 0.0;  ///< mean difference at most 1.64 mm
+  double fractionSignificant = 0.0;  ///< at the retractor at least 5 mm
+};
+RetractionStudy retractionStudy(const std::vector<CaseRecord>& records);
+
+/// One of the four patients that are shown: the one nearest to the mean of the difference at the retractor, to one and
+/// to two standard deviations above it, and the one furthest above; each another patient. Fewer where there are fewer.
+struct Chosen {
+  std::string what;  ///< "mean", "+1 SD", "+2 SD", "outlier"
+  std::string id;
+  double at_retractor_mm = 0.0;
+};
+std::vector<Chosen> chooseCases(const std::vector<CaseRecord>& records);
+
+}  // namespace glisson::cohort

@@ -1,0 +1,218 @@
+#include "pipeline/picture_file.h"
+
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/sha256.h"
+
+namespace glisson::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
+
+constexpr char magic[] = {'G', 'L', 'I', 'S', 'S', 'O', 'N', 'P'};
+constexpr std::uint64_t largestHeader = 1 << 20;
+
+std::string named(const std::filesystem::path& file) {
+  return "'" + file.filename().string() + "'";
+}
+
+template <typename Derived>
+Json toJson(const Eigen::MatrixBase<Derived>& m) {
+  Json j = Json::array();
+  for (Eigen::Index c = 0; c < m.cols(); ++c)
+    for (Eigen::Index r = 0; r < m.rows(); ++r) j.push_back(m(r, c));
+  return j;
+}
+
+template <typename Matrix>
+Matrix fromJson(const Json& j) {
+  Matrix m;
+  if (!j.is_array() || j.size() != static_cast<std::size_t>(m.size())) throw BadInput("a list has the wrong length");
+  for (Eigen::Index c = 0; c < m.cols(); ++c)
+    for (Eigen::Index r = 0; r < m.rows(); ++r)
+      m(r, c) = j.at(static_cast<std::size_t>(c * m.rows() + r)).get<typename Matrix::Scalar>();
+  return m;
+}
+
+Json toJson(const image::Grid& g) {
+  return {{"size", toJson(g.size)},
+          {"spacing_mm", toJson(g.spacing_mm)},
+          {"origin_lps_mm", toJson(g.origin_lps_mm)},
+          {"direction", toJson(g.direction)}};
+}
+
+image::Grid gridOf(const Json& j) {
+  image::Grid g;
+  g.size = fromJson<Eigen::Vector3i>(j.at("size"));
+  g.spacing_mm = fromJson<Eigen::Vector3d>(j.at("spacing_mm"));
+  g.origin_lps_mm = fromJson<Eigen::Vector3d>(j.at("origin_lps_mm"));
+  g.direction = fromJson<Eigen::Matrix3d>(j.at("direction"));
+  g.check();
+  return g;
+}
+
+/// The arrays one after the other.
+class Body {
+ public:
+  explicit Body(std::string bytes = {}) : bytes_(std::move(bytes)) {}
+
+  void put(const void* data, std::size_t count) { bytes_.append(static_cast<const char*>(data), count); }
+  void take(void* data, std::size_t count) {
+    if (count > bytes_.size() - at_) throw BadInput("it ends too early");
+    if (count > 0) std::memcpy(data, bytes_.data() + at_, count);
+    at_ += count;
+  }
+  template <typename T>
+  void put(const image::Volume<T>& v) {
+    put(v.values.data(), v.values.size() * sizeof(T));
+  }
+  template <typename T>
+  image::Volume<T> volume(const image::Grid& grid) {
+    // Before anything is allocated: no more voxels than there are bytes left.
+    if (grid.voxelCount() > (bytes_.size() - at_) / sizeof(T)) throw BadInput("it ends too early");
+    image::Volume<T> v;
+    v.grid = grid;
+    v.values.resize(grid.voxelCount());
+    take(v.values.data(), v.values.size() * sizeof(T));
+    return v;
+  }
+  void put(const anatomy::TriangleMesh& m) {
+    put(m.vertices_lps_mm.data(), static_cast<std::size_t>(m.vertices_lps_mm.size()) * sizeof(double));
+    put(m.triangles.data(), static_cast<std::size_t>(m.triangles.size()) * sizeof(int));
+  }
+  anatomy::TriangleMesh mesh(const Json& j) {
+    const auto vertices = j.at("vertices").get<std::size_t>(), triangles = j.at("triangles").get<std::size_t>();
+    const std::size_t left = bytes_.size() - at_;
+    if (vertices > left / (3 * sizeof(double)) || triangles > left / (3 * sizeof(int)))
+      throw BadInput("it ends too early");
+    anatomy::TriangleMesh m;
+    m.vertices_lps_mm.resize(3, static_cast<Eigen::Index>(vertices));
+    m.triangles.resize(3, static_cast<Eigen::Index>(triangles));
+    take(m.vertices_lps_mm.data(), 3 * vertices * sizeof(double));
+    take(m.triangles.data(), 3 * triangles * sizeof(int));
+    if (triangles > 0 && (m.triangles.minCoeff() < 0 || static_cast<std::size_t>(m.triangles.maxCoeff()) >= vertices))
+      throw BadInput("a triangle names a vertex that is not there");
+    return m;
+  }
+  const std::string& bytes() const { return bytes_; }
+  bool used() const { return at_ == bytes_.size(); }
+
+ private:
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+Json sizesOf(const anatomy::TriangleMesh& m) {
+  return {{"vertices", m.vertices_lps_mm.cols()}, {"triangles", m.triangles.cols()}};
+}
+
+PictureData parsed(const Json& j, Body body) {
+  PictureData data;
+  render::RetractionScene& s = data.scene;
+  s.mri = body.volume<float>(gridOf(j.at("mri")));
+  s.liver = body.volume<std::uint8_t>(gridOf(j.at("liver")));
+  s.u_mre_mm = body.volume<Eigen::Vector3f>(gridOf(j.at("u_mre")));
+  s.u_atlas_mm = body.volume<Eigen::Vector3f>(gridOf(j.at("u_atlas")));
+  s.liverSurface = body.mesh(j.at("liver_surface"));
+  s.vesselSurface = body.mesh(j.at("vessel_surface"));
+  if (!body.used()) throw BadInput("it holds more than it says");
+  const Json& r = j.at("retractor");
+  if (r.contains("point_lps_mm")) s.retractorPoint_lps_mm = fromJson<Eigen::Vector3d>(r["point_lps_mm"]);
+  s.retractorAxis = fromJson<Eigen::Vector3d>(r.at("axis"));
+  s.retractorDirection = fromJson<Eigen::Vector3d>(r.at("direction"));
+  s.retractorDiameter_mm = r.at("diameter_mm").get<double>();
+  s.retractorLength_mm = r.at("length_mm").get<double>();
+  s.clinicallySignificant_mm = j.at("clinically_significant_mm").get<double>();
+  s.caption = j.at("caption").get<std::string>();
+  s.mark = j.at("mark").get<std::string>();
+  s.valid = j.at("valid").get<bool>();
+  if (j.contains("vessel_lps_mm")) data.vessel_lps_mm = fromJson<Eigen::Vector3d>(j["vessel_lps_mm"]);
+  return data;
+}
+
+}  // namespace
+
+void writePictureFile(const std::filesystem::path& file, const PictureData& data) {
+  const render::RetractionScene& s = data.scene;
+  Body body;
+  body.put(s.mri);
+  body.put(s.liver);
+  body.put(s.u_mre_mm);
+  body.put(s.u_atlas_mm);
+  body.put(s.liverSurface);
+  body.put(s.vesselSurface);
+  Json j;
+  j["schema"] = "glisson/pictures/1";
+  j["mri"] = toJson(s.mri.grid);
+  j["liver"] = toJson(s.liver.grid);
+  j["u_mre"] = toJson(s.u_mre_mm.grid);
+  j["u_atlas"] = toJson(s.u_atlas_mm.grid);
+  j["liver_surface"] = sizesOf(s.liverSurface);
+  j["vessel_surface"] = sizesOf(s.vesselSurface);
+  j["retractor"] = {{"axis", toJson(s.retractorAxis)},
+                    {"direction", toJson(s.retractorDirection)},
+                    {"diameter_mm", s.retractorDiameter_mm},
+                    {"length_mm", s.retractorLength_mm}};
+  if (s.retractorPoint_lps_mm) j["retractor"]["point_lps_mm"] = toJson(*s.retractorPoint_lps_mm);
+  j["clinically_significant_mm"] = s.clinicallySignificant_mm;
+  j["caption"] = s.caption;
+  j["mark"] = s.mark;
+  j["valid"] = s.valid;
+  if (data.vessel_lps_mm) j["vessel_lps_mm"] = toJson(*data.vessel_lps_mm);
+  j["bytes"] = body.bytes().size();
+  j["sha256"] = sha256(body.bytes().data(), body.bytes().size());
+  const std::string header = j.dump();
+  const std::uint64_t length = header.size();
+
+  const std::filesystem::path beside = file.string() + ".part";
+  {
+    std::ofstream out(beside, std::ios::binary);
+    out.write(magic, sizeof magic);
+    out.write(reinterpret_cast<const char*>(&length), sizeof length);
+    out << header << body.bytes();
+    out.flush();
+    if (!out) throw BadInput("cannot write " + named(file) + "; is the disk full or the folder read-only?");
+  }
+  std::error_code failed;
+  std::filesystem::rename(beside, file, failed);
+  if (failed) throw BadInput("cannot write " + named(file) + ": " + failed.message());
+}
+
+PictureData readPictureFile(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::error_code failed;
+  if (!in || !std::filesystem::is_regular_file(file, failed))
+    throw BadInput(
+        "there is no " + named(file) +
+        " in this folder: pictures can be drawn again where the run was asked for \"overlay\" or \"report\"");
+  const std::uint64_t size = std::filesystem::file_size(file);
+  char start[sizeof magic] = {};
+  std::uint64_t length = 0;
+  in.read(start, sizeof start);
+  in.read(reinterpret_cast<char*>(&length), sizeof length);
+  if (!in || std::memcmp(start, magic, sizeof magic) != 0 || length > largestHeader || length + 16 > size)
+    throw BadInput(named(file) + " is damaged or not written by Glisson; run the scene again");
+  std::string header(length, '\0'), bytes(size - 16 - length, '\0');
+  in.read(header.data(), static_cast<std::streamsize>(header.size()));
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  try {
+    if (!in) throw BadInput("it ends too early");
+    const Json j = Json::parse(header);
+    if (j.at("schema") != "glisson/pictures/1") throw BadInput("it is of another version");
+    if (j.at("bytes") != bytes.size() || j.at("sha256") != sha256(bytes.data(), bytes.size()))
+      throw BadInput("its content is not what was written");
+    return parsed(j, Body(std::move(bytes)));
+  } catch (const nlohmann::json::exception&) {
+    throw BadInput(named(file) + " is damaged: its header cannot be read; run the scene again");
+  } catch (const BadInput& e) {
+    throw BadInput(named(file) + " cannot be used: " + e.what() + "; run the scene again");
+  }
+}
+
+}  // namespace glisson::pipeline

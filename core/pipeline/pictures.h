@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/picture_file.h"
+#include "render/overlay.h"
+
+namespace glisson::pipeline {
+
+/// From where a 3-D picture is seen.
+struct NamedCamera {
+  std::string name;  ///< part of the file's name
+  render::View3D view = render::View3D::Oblique;
+  std::optional<render::Camera3D> camera{};
+};
+
+/// "anterior", "posterior", "left", "right", "superior", "inferior", "oblique", or "azimuth,elevation" in degrees.
+/// Throws BadInput.
+NamedCamera cameraFromText(const std::string& text);
+
+/// Which pictures, and how.
+struct PictureOptions {
+  render::Palette palette = render::Palette::RedBlue;
+  std::vector<int> slices{};           ///< k of the MRI grid; empty: largest difference, vessels, retractor
+  std::vector<NamedCamera> cameras{};  ///< empty: oblique and anterior
+  int width = 1600, height = 1200;   ///< of 3-D pictures; pixels per voxel of slices grow with the width
+  double dpi = 300.0;
+};
+
+/// Draws the slices and the map of differences into the folder; gives the files. Nothing where the scene may not be
+/// drawn (not converged, inverted cells). Throws BadInput where a slice is not there or the folder cannot be written.
+std::vector<std::filesystem::path> drawSlices(const PictureData& data, const PictureOptions& options,
+                                              const std::filesystem::path& folder);
+
+/// The same in 3-D. Throws RenderUnavailable.
+std::vector<std::filesystem::path> draw3D(const PictureData& data, const PictureOptions& options,
+                                          const std::filesystem::path& folder);
+
+}  // namespace glisson::pipeline

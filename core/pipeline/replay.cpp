@@ -1,0 +1,137 @@
+#include "pipeline/replay.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "pipeline/detail/record.h"
+#include "pipeline/run.h"
+
+namespace glisson::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json readJson(const std::filesystem::path& file, const char* what) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (in) text << in.rdbuf();
+  if (!in || text.str().empty())
+    throw BadInput(std::string("cannot read the ") + what + " '" + file.filename().string() +
+                   "'; check that it exists");
+  try {
+    return Json::parse(text.str(), nullptr, true, true);
+  } catch (const nlohmann::json::exception&) {
+    throw BadInput("'" + file.filename().string() + "' is no " + what + ": it is not JSON");
+  }
+}
+
+/// The path as it is below the root, or the file or folder of its name there.
+void lookBelow(const std::filesystem::path& root, Json& holder, const char* key) {
+  if (!holder.is_object() || !holder.contains(key) || !holder[key].is_string()) return;
+  const std::filesystem::path said = holder[key].get<std::string>();
+  const std::filesystem::path name = said.has_filename() ? said.filename() : said.parent_path().filename();
+  std::filesystem::path found = root / name;
+  if (said.is_relative() && std::filesystem::exists(root / said)) found = root / said;
+  holder[key] = std::filesystem::absolute(found).generic_string();
+}
+
+void lookForInputsBelow(const std::filesystem::path& root, Json& scene) {
+  for (const char* key : {"file", "mri", "mre", "roi"})
+    if (scene.contains("geometry")) lookBelow(root, scene["geometry"], key);
+  if (scene.contains("material")) lookBelow(root, scene["material"], "map");
+  for (const char* list : {"supports", "loads"})
+    if (scene.contains(list))
+      for (Json& item : scene[list])
+        if (item.is_object() && item.contains("region")) lookBelow(root, item["region"], "mask");
+}
+
+/// A folder that goes when the replay ends.
+struct Workplace {
+  std::filesystem::path folder;
+  bool temporary = false;
+  explicit Workplace(const std::filesystem::path& asked) : folder(asked), temporary(asked.empty()) {
+    if (!temporary) return;
+    std::string pattern = (std::filesystem::temp_directory_path() / "glisson-replay-XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw BadInput("cannot make a temporary folder; name one with --output");
+    folder = pattern;
+  }
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+  ~Workplace() {
+    std::error_code ignored;
+    if (temporary) std::filesystem::remove_all(folder, ignored);
+  }
+};
+
+std::vector<ReplayedFile> compared(const Json& then, const Json& now) {
+  std::vector<ReplayedFile> files;
+  for (const Json& f : then) files.push_back({f.at("file").get<std::string>(), f.at("sha256").get<std::string>(), {}});
+  for (const Json& f : now) {
+    const std::string name = f.at("file").get<std::string>();
+    auto at = std::find_if(files.begin(), files.end(), [&](const ReplayedFile& known) { return known.file == name; });
+    if (at == files.end()) at = files.insert(at, {name, {}, {}});
+    at->found = f.at("sha256").get<std::string>();
+  }
+  return files;
+}
+
+void requireSameInputs(const Scene& scene, const Json& recorded) {
+  std::size_t known = 0;
+  for (const auto& [name, digest] : detail::inputDigests(scene)) {
+    if (!recorded.contains(name)) throw BadInput("the run record knows no input \"" + name + "\"; is this its scene?");
+    if (recorded.at(name).at("sha256") != digest)
+      throw BadInput("the input \"" + name +
+                     "\" is not the one of the run: its SHA-256 differs; find the original, or run the scene anew");
+    ++known;
+  }
+  if (known != recorded.size()) throw BadInput("the run used more inputs than the scene names; is this its scene?");
+}
+
+}  // namespace
+
+bool ReplayResult::identical() const {
+  return numbersIdentical &&
+         std::all_of(outputs.begin(), outputs.end(), [](const ReplayedFile& f) { return f.identical(); });
+}
+
+ReplayResult replay(const std::filesystem::path& recordFile, const ReplayOptions& options, const Progress& progress) {
+  const Json record = readJson(recordFile, "run record");
+  try {
+    if (record.at("schema") != "glisson/run/1" || !record.contains("results_sha256"))
+      throw BadInput("'" + recordFile.filename().string() + "' is no run record that can be replayed");
+    const std::filesystem::path sceneFile =
+        options.scene.empty() ? recordFile.parent_path() / "scene.json" : options.scene;
+    Json sceneJson = readJson(sceneFile, "scene");
+    if (!options.root.empty()) lookForInputsBelow(options.root, sceneJson);
+    const std::filesystem::path folder = sceneFile.parent_path();
+    Scene scene = parseScene(sceneJson.dump(1), folder.empty() ? "." : folder, sceneFile.filename().string());
+    if (Json::parse(detail::parameters(scene)) != record.at("parameters"))
+      throw BadInput("the scene '" + sceneFile.filename().string() +
+                     "' is not the one of the run record: its parameters differ; name the right one with --scene");
+    requireSameInputs(scene, record.at("inputs"));
+
+    ReplayResult result;
+    if (record.at("version") != version() || record.at("commit") != buildCommit())
+      result.notes.push_back("the run was made by version " + record.at("version").get<std::string>() + ", commit " +
+                             record.at("commit").get<std::string>() + "; this is version " + version() + ", commit " +
+                             buildCommit());
+    const Workplace place(options.output);
+    RunOptions runOptions;
+    runOptions.output = place.folder;
+    runOptions.palette =
+        record.at("palette") == "colour-blind" ? render::Palette::ColourBlind : render::Palette::RedBlue;
+    const Json again = Json::parse(run(scene, runOptions, progress).json);
+    result.numbersIdentical = again.at("results_sha256") == record.at("results_sha256");
+    result.outputs = compared(record.at("outputs"), again.at("outputs"));
+    return result;
+  } catch (const nlohmann::json::exception&) {
+    throw BadInput("'" + recordFile.filename().string() + "' is no complete run record");
+  }
+}
+
+}  // namespace glisson::pipeline

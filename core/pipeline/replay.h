@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+
+namespace glisson::pipeline {
+
+struct ReplayOptions {
+  std::filesystem::path scene;   ///< empty: scene.json beside the record
+  std::filesystem::path root;    ///< where the inputs are now; empty: where the scene says
+  std::filesystem::path output;  ///< keeps what is computed again; empty: a temporary folder, removed afterwards
+};
+
+/// One file of the run, then and now. A digest is empty where the file was not written.
+struct ReplayedFile {
+  std::string file;
+  std::string recorded, found;  ///< SHA-256
+  bool identical() const { return recorded == found; }
+};
+
+struct ReplayResult {
+  bool numbersIdentical = false;  ///< every number and word of the record but times, memory and version
+  std::vector<ReplayedFile> outputs;
+  std::vector<std::string> notes;
+  bool identical() const;
+};
+
+/// Runs the scene of a run record again and compares every output by its digest.
+/// Throws BadInput where the record is not one, the scene is not the recorded one, or an input is missing or changed.
+ReplayResult replay(const std::filesystem::path& record, const ReplayOptions& options, const Progress& progress = {});
+
+}  // namespace glisson::pipeline

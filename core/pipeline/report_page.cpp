@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/sha256.h"
+#include "base/version.h"
+#include "pipeline/detail/method_text.h"
+#include "pipeline/detail/outputs.h"
+#include "pipeline/detail/record.h"
+#include "report/html.h"
+
+namespace glisson::pipeline::detail {
+namespace {
+
+using report::HtmlReport;
+using report::number;
+
+std::string inWords(const Eigen::Vector3d& v) {
+  return number(v.x()) + ", " + number(v.y()) + ", " + number(v.z());
+}
+
+void results(HtmlReport& page, const RunResult& r) {
+  page.heading("Result");
+  std::vector<std::pair<std::string, std::string>> rows;
+  if (r.difference) {
+    const comparison::Difference& d = *r.difference;
+    rows.emplace_back("Difference over the liver, mean", number(d.mean_mm) + " mm");
+    rows.emplace_back("95 % of the liver below", number(d.p95_mm) + " mm");
+    rows.emplace_back("Largest", number(d.max_mm) + " mm");
+    rows.emplace_back("At the retractor",
+                      number(d.at_retractor_mm) + " mm" +
+                          (d.clinically_significant ? " (5 mm or more: clinically significant)" : ""));
+    if (!d.vessel_mm.empty()) {
+      rows.emplace_back("Vessel landmarks, mean", number(d.vesselMean_mm) + " mm");
+      rows.emplace_back("Vessel landmarks 5 mm or more apart", number(100 * d.vesselFractionBeyond, 3) + " %");
+    }
+  }
+  const Motion motion = motionOf(r.model, r.primary);
+  rows.emplace_back("Displacement, mean", number(motion.mean_mm) + " mm");
+  rows.emplace_back("Displacement, largest", number(motion.max_mm) + " mm");
+  if (r.primary.retractorPoint_mm)
+    rows.emplace_back("Displacement at the retractor", number(motion.at_retractor_mm) + " mm");
+  if (r.stiffness) {
+    const auto& s = r.stiffness->pooled;
+    rows.emplace_back(
+        r.stiffness->quantity == StiffnessQuantity::Shear ? "Shear modulus in the ROI" : "Young's modulus in the ROI",
+        number(s.mean_kPa) + " ± " + number(s.sd_kPa) + " kPa (" + std::to_string(s.n_before_mask) + " voxels, " +
+            std::to_string(s.n) + " after the confidence mask)");
+  }
+  page.table(rows);
+}
+
+/// A list where there is something to list.
+void listed(HtmlReport& page, const std::vector<std::string>& items) {
+  if (!items.empty()) page.list(items);
+}
+
+void trust(HtmlReport& page, const RunResult& r) {
+  page.heading("Can it be trusted?");
+  if (r.primary.linearTrusted)
+    page.paragraph(r.primary.kinematics == retraction::Kinematics::Linear
+                       ? "Strains and rotations are small enough for linear theory."
+                       : "The large-deformation solve converged, and no cell is turned inside out.");
+  else
+    page.warning("The result is outside the limits of its theory; it is shown with this reservation.");
+  listed(page, r.primary.validity);
+  if (const std::string advice = adviceOn(r.primary); !advice.empty()) page.warning(advice);
+  page.table(
+      {{"Solver", r.primary.solver.kind + ", relative residual " + number(r.primary.solver.residual, 2)},
+       {"Strain, largest / 95 % below", number(r.primary.max_strain, 3) + " / " + number(r.primary.p95_strain, 3)},
+       {"Largest rotation", number(r.primary.max_rotation_deg, 3) + " degrees"},
+       {"Load", inWords(r.primary.load_N) + " N"},
+       {"Reaction", inWords(r.primary.reaction_N) + " N"}});
+  if (r.discretisation) {
+    const retraction::DiscretisationError& e = *r.discretisation;
+    if (e.known)
+      page.table({"Discretisation error", "mean", "95 % below", "largest"},
+                 {{"estimated from cells of " + number(e.cell_mm) + " and " + number(e.coarse_mm) + " mm",
+                   number(e.mean_mm, 3) + " mm", number(e.p95_mm, 3) + " mm", number(e.max_mm, 3) + " mm"}});
+    else
+      page.paragraph(e.note);
+  } else {
+    page.paragraph("The discretisation error of this run was not estimated.");
+  }
+  listed(page, r.warnings);
+}
+
+std::string verdict(const retraction::Result& r) {
+  if (!r.solver.converged()) return "not converged";
+  return r.linearTrusted ? "within its limits" : "outside its limits";
+}
+
+void kinematics(HtmlReport& page, const RunResult& r) {
+  if (!r.linear) return;
+  const retraction::Result &own = r.primary, &linear = r.linear->primary;
+  const Motion a = motionOf(r.model, linear), b = motionOf(r.model, own);
+  page.heading("Linear theory beside " + nameOf(own.kinematics) + " kinematics");
+  const auto mm = [](double v) { return number(v) + " mm"; };
+  std::vector<std::vector<std::string>> rows = {
+      {"Displacement, mean", mm(a.mean_mm), mm(b.mean_mm), mm(r.linear->between.mean_mm)},
+      {"Displacement, largest", mm(a.max_mm), mm(b.max_mm), mm(r.linear->between.max_mm)}};
+  if (own.retractorPoint_mm)
+    rows.push_back({"Displacement at the retractor", mm(a.at_retractor_mm), mm(b.at_retractor_mm),
+                    mm(r.linear->between.at_retractor_mm)});
+  const auto difference = [&](double x, double y) {
+    return std::vector<std::string>{"", mm(x), mm(y), mm(std::abs(x - y))};
+  };
+  if (r.difference && r.linear->difference) {
+    const auto row = [&](const std::string& what, double x, double y) {
+      rows.push_back(difference(x, y));
+      rows.back().front() = what;
+    };
+    row("MRE against atlas, mean", r.linear->difference->mean_mm, r.difference->mean_mm);
+    row("MRE against atlas, largest", r.linear->difference->max_mm, r.difference->max_mm);
+    if (own.retractorPoint_mm)
+      row("MRE against atlas, at the retractor", r.linear->difference->at_retractor_mm, r.difference->at_retractor_mm);
+  }
+  rows.push_back({"Strain, largest", number(linear.max_strain, 3), number(own.max_strain, 3), "–"});
+  rows.push_back({"Strain, 95 % below", number(linear.p95_strain, 3), number(own.p95_strain, 3), "–"});
+  rows.push_back(
+      {"Largest rotation", number(linear.max_rotation_deg, 3) + "°", number(own.max_rotation_deg, 3) + "°", "–"});
+  rows.push_back({"Validity", verdict(linear), verdict(own), "–"});
+  page.table({"", "linear", nameOf(own.kinematics), "apart"}, rows);
+  page.paragraph(
+      "\"Apart\" is, for displacements, the distance between the two places of the same tissue (mean, largest, "
+      "mean at the retractor); for the differences between the stiffnesses, how much they change.");
+  if (!linear.validity.empty()) {
+    page.paragraph("What is said against the linear answer:");
+    page.list(linear.validity);
+  }
+}
+
+std::string captionOf(const std::string& name) {
+  if (name == "difference-map.png") return "Distance between the two predictions, mm";
+  if (name.rfind("overlay-3d", 0) == 0)
+    return "Vessels where the measured stiffness puts them (blue) and where the textbook stiffness does (red)";
+  const char* where = name == "overlay-vessels.png"     ? "Slice of the most misplaced vessel"
+                      : name == "overlay-retractor.png" ? "Slice of the retractor"
+                                                        : "Slice of the largest difference";
+  return std::string(where) +
+         ": the image moved by each prediction, measured stiffness in blue, textbook in red, purple where they agree";
+}
+
+}  // namespace
+
+void Writer::report(const Scene& scene, const RunResult& r,
+                    const std::vector<std::pair<std::string, std::string>>& inputs) {
+  HtmlReport page(r.difference ? "Liver retraction, measured against textbook stiffness" : "Deformation under load");
+  results(page, r);
+  trust(page, r);
+  kinematics(page, r);
+  page.heading("Pictures");
+  int figure = 0;
+  for (const auto& f : r.files)
+    if (f.extension() == ".png")
+      page.picture(f, "Figure " + std::to_string(++figure) + ". " + captionOf(f.filename().string()));
+  if (figure == 0) page.paragraph("There is none: what did not converge, or is no deformation, is not drawn.");
+  page.heading("Method");
+  for (const std::string& paragraph : methodText(scene, r)) page.paragraph(paragraph);
+  page.heading("Manifest");
+  page.paragraph("Glisson " + version() + ", commit " + buildCommit() + ", seed " + std::to_string(scene.setup.seed) +
+                 ". \"glisson-cli replay run.json\" computes this again and compares every file by its SHA-256.");
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, digest] : inputs) rows.push_back({"input", name, digest});
+  for (const auto& f : r.files) rows.push_back({"output", f.filename().string(), sha256OfFile(f)});
+  if (!rows.empty()) page.table({"", "what", "SHA-256"}, rows);
+  text("report.html", page.html());
+}
+
+}  // namespace glisson::pipeline::detail

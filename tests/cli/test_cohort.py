@@ -1,0 +1,109 @@
+"""The cohort as a researcher runs it: several patients, one of them bad; killed and resumed; sharded and merged."""
+import hashlib
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from support import CLI, cli, cli_json
+
+
+
+def digests(folder):
+    """Every file that must be the same wherever and however often it is made."""
+    folder = pathlib.Path(folder)
+    return {str(p.relative_to(folder)): hashlib.sha256(p.read_bytes()).hexdigest() for p in sorted(folder.rglob("*"))
+            if p.is_file() and p.name != "timings.csv"}
+
+
+class Cohort(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
+        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.patients = cls.folder / "patients"
+        cli("phantom", "--cases", 3, "--seed", 11, "--cohort", "paper", "--output", cls.patients, "--quiet")
+        for n, name in enumerate(("Doe^Jane", "Roe^Richard", "Zoe^Zelda"), 1):
+            (cls.patients / f"patient-00{n}").rename(cls.patients / name)
+            scene = json.loads((cls.patients / name / "scene.json").read_text())
+            scene["geometry"]["cell_mm"] = 8
+            (cls.patients / name / "scene.json").write_text(json.dumps(scene))
+        bad = cls.patients / "Poe^Paul"
+        shutil.copytree(cls.patients / "Doe^Jane", bad)
+        # One slice in the middle of the elastogram is gone.
+        images = sorted((bad / "mre" / "stiffness").iterdir())
+        images[len(images) // 2].unlink()
+        cls.whole = cls.folder / "whole"
+        cls.result = cli_json("cohort", cls.patients, "--output", cls.whole, "--no-sensitivity", code=6)
+
+    def test_reports_both_studies(self):
+        r = self.result
+        self.assertEqual((r["retraction"]["tried"], r["retraction"]["left"]), (4, 3))
+        truth = [json.loads((self.patients / n / "truth.json").read_text())["shear_kPa"]
+                 for n in ("Doe^Jane", "Roe^Richard", "Zoe^Zelda")]
+        measured = [c["shear_kPa"] for c in r["cases"] if c["status"] == "done"]
+        for t, m in zip(truth, measured):
+            self.assertAlmostEqual(t, m, delta=0.02 * t)
+        over = sum(m > 3.1 for m in measured) / len(measured)
+        self.assertAlmostEqual(r["stiffness"]["fraction_over_1kPa"], over, places=12)
+        for name in ("cohort.json", "patients.csv", "rejected.csv", "report.html", "figures/stiffness-histogram.png",
+                     "figures/difference-retractor.svg"):
+            self.assertTrue((self.whole / name).stat().st_size > 100, name)
+        self.assertEqual(len(r["chosen"]), 3)
+
+    def test_rejects_with_the_reason(self):
+        bad = [c for c in self.result["cases"] if c["status"] != "done"]
+        self.assertEqual([c["id"] for c in bad], ["case-002"])
+        self.assertEqual(bad[0]["status"], "rejected")
+        self.assertIn("slice", bad[0]["reason"])
+
+    def test_names_nobody(self):
+        for path in self.whole.rglob("*"):
+            if path.is_file():
+                data = path.read_bytes()
+                for name in (b"Doe", b"Richard", b"Zelda", b"Poe^", str(self.folder).encode()):
+                    self.assertNotIn(name, data, path)
+
+    def test_resumes_with_the_same_result_after_a_kill(self):
+        output = self.folder / "killed"
+        command = [CLI, "cohort", str(self.patients), "--output", str(output), "--no-sensitivity", "--jobs", "1",
+                   "--quiet"]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 300
+        while not list(output.glob("cases/*/result.json")) and time.monotonic() < deadline:
+            time.sleep(0.02)
+        os.kill(process.pid, signal.SIGKILL)
+        process.wait()
+        before = {p: p.stat().st_mtime_ns for p in output.glob("cases/*/result.json")}
+        self.assertTrue(0 < len(before) < 4)
+        cli("cohort", self.patients, "--output", output, "--no-sensitivity", code=6)
+        for path, written in before.items():
+            self.assertEqual(path.stat().st_mtime_ns, written, "computed again")
+        self.assertEqual(digests(output), digests(self.whole))
+
+    def test_shards_merge_to_the_same_bytes(self):
+        for shard in (1, 2):
+            cli_json("cohort", self.patients, "--shard", f"{shard}/2", "--output", self.folder / f"shard{shard}",
+                     code=6 if shard == 2 else 0)
+        merged = self.folder / "merged"
+        cli("cohort", "merge", self.folder / "shard1", self.folder / "shard2", "--data", self.patients, "--output",
+            merged, "--no-sensitivity", code=6)
+        self.assertEqual(digests(merged), digests(self.whole))
+        message = cli("cohort", "merge", self.folder / "shard1", "--output", merged, code=3).stderr
+        self.assertIn("shards are missing", message)
+
+    def test_refuses_what_is_no_cohort(self):
+        empty = self.folder / "empty"
+        empty.mkdir()
+        self.assertIn("no patient was found", cli("cohort", empty, code=3).stderr)
+        self.assertIn("--shard", cli("cohort", self.patients, "--shard", "3", "--output", empty, code=3).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
