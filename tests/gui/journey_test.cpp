@@ -3,6 +3,7 @@
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QPushButton>
+#include <QSettings>
 #include <QSignalSpy>
 #include <QSlider>
 #include <QTableWidget>
@@ -91,7 +92,10 @@ class Journey : public QObject {
  private slots:
   void initTestCase() {
     glisson::panels::applyTheme(glisson::panels::Theme::Dark);
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope,
+                       QString::fromStdString((folder_ / "settings").string()));
     window_ = std::make_unique<MainWindow>();
+    session().setJournalFolder(QString::fromStdString((folder_ / "journals").string()));
     session().setWorkFolder(QString::fromStdString((folder_ / "work").string()));
     window_->show();
     QVERIFY(QTest::qWaitForWindowExposed(window_.get()));

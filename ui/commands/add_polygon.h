@@ -10,8 +10,8 @@ namespace glisson::commands {
 class AddPolygon final : public Command {
  public:
   explicit AddPolygon(roi::Polygon polygon) : polygon_(std::move(polygon)) {}
-  void apply(roi::ContourStack& contours) override { contours.polygons.push_back(polygon_); }
-  void revert(roi::ContourStack& contours) override { contours.polygons.pop_back(); }
+  void apply(Outlines& contours) override { contours.polygons.push_back(polygon_); }
+  void revert(Outlines& contours) override { contours.polygons.pop_back(); }
   std::string text() const override {
     return polygon_.state == roi::PolygonState::Draft ? "add draft outline" : "add outline";
   }

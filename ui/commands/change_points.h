@@ -16,8 +16,8 @@ class ChangePoints final : public Command {
         before_(contours.polygons.at(index).points_lps_mm),
         after_(std::move(points_lps_mm)),
         text_(std::move(text)) {}
-  void apply(roi::ContourStack& contours) override { contours.polygons.at(index_).points_lps_mm = after_; }
-  void revert(roi::ContourStack& contours) override { contours.polygons.at(index_).points_lps_mm = before_; }
+  void apply(Outlines& contours) override { contours.polygons.at(index_).points_lps_mm = after_; }
+  void revert(Outlines& contours) override { contours.polygons.at(index_).points_lps_mm = before_; }
   std::string text() const override { return text_; }
   Eigen::Vector3d where_lps_mm() const override { return centreOf(after_); }
 

@@ -15,8 +15,8 @@ class ChangeState final : public Command {
         before_(contours.polygons.at(index).state),
         after_(state),
         where_lps_mm_(centreOf(contours.polygons.at(index).points_lps_mm)) {}
-  void apply(roi::ContourStack& contours) override { contours.polygons.at(index_).state = after_; }
-  void revert(roi::ContourStack& contours) override { contours.polygons.at(index_).state = before_; }
+  void apply(Outlines& contours) override { contours.polygons.at(index_).state = after_; }
+  void revert(Outlines& contours) override { contours.polygons.at(index_).state = before_; }
   std::string text() const override {
     return after_ == roi::PolygonState::Accepted ? "accept outline" : "make outline a draft";
   }

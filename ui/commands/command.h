@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "roi/contour_stack.h"
+#include "commands/outlines.h"
 
 namespace glisson::commands {
 
@@ -12,8 +12,8 @@ namespace glisson::commands {
 class Command {
  public:
   virtual ~Command() = default;
-  virtual void apply(roi::ContourStack& contours) = 0;
-  virtual void revert(roi::ContourStack& contours) = 0;
+  virtual void apply(Outlines& contours) = 0;
+  virtual void revert(Outlines& contours) = 0;
   /// What undo would take back, for the menu: "add outline".
   virtual std::string text() const = 0;
   /// A point (LPS mm) on the slice concerned: undo and redo show that slice.

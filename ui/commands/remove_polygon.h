@@ -13,10 +13,10 @@ class RemovePolygon final : public Command {
   /// index: of contours.polygons, in range.
   RemovePolygon(const roi::ContourStack& contours, std::size_t index)
       : index_(index), polygon_(contours.polygons.at(index)) {}
-  void apply(roi::ContourStack& contours) override {
+  void apply(Outlines& contours) override {
     contours.polygons.erase(contours.polygons.begin() + static_cast<std::ptrdiff_t>(index_));
   }
-  void revert(roi::ContourStack& contours) override {
+  void revert(Outlines& contours) override {
     contours.polygons.insert(contours.polygons.begin() + static_cast<std::ptrdiff_t>(index_), polygon_);
   }
   std::string text() const override { return "delete outline"; }

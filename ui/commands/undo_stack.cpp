@@ -4,7 +4,7 @@
 
 namespace glisson::commands {
 
-void UndoStack::push(std::unique_ptr<Command> command, roi::ContourStack& contours) {
+void UndoStack::push(std::unique_ptr<Command> command, Outlines& contours) {
   acts_.resize(done_);
   command->apply(contours);
   acts_.push_back(std::move(command));
@@ -12,14 +12,14 @@ void UndoStack::push(std::unique_ptr<Command> command, roi::ContourStack& contou
   done_ = acts_.size();
 }
 
-std::optional<Eigen::Vector3d> UndoStack::undo(roi::ContourStack& contours) {
+std::optional<Eigen::Vector3d> UndoStack::undo(Outlines& contours) {
   if (!canUndo()) return std::nullopt;
   --done_;
   acts_[done_]->revert(contours);
   return acts_[done_]->where_lps_mm();
 }
 
-std::optional<Eigen::Vector3d> UndoStack::redo(roi::ContourStack& contours) {
+std::optional<Eigen::Vector3d> UndoStack::redo(Outlines& contours) {
   if (!canRedo()) return std::nullopt;
   acts_[done_]->apply(contours);
   return acts_[done_++]->where_lps_mm();

@@ -17,11 +17,19 @@ class UndoStack {
   explicit UndoStack(std::size_t limit = 1000) : limit_(limit) {}
 
   /// Applies the command and remembers it. Acts that were undone can no longer be redone.
-  void push(std::unique_ptr<Command> command, roi::ContourStack& contours);
+  void push(std::unique_ptr<Command> command, Outlines& contours);
 
   /// Takes back the latest act; returns a point (LPS mm) on the slice it concerned, nothing where there was none.
-  std::optional<Eigen::Vector3d> undo(roi::ContourStack& contours);
-  std::optional<Eigen::Vector3d> redo(roi::ContourStack& contours);
+  std::optional<Eigen::Vector3d> undo(Outlines& contours);
+  std::optional<Eigen::Vector3d> redo(Outlines& contours);
+
+  /// Where the next undo or redo will act: that slice is shown first.
+  std::optional<Eigen::Vector3d> whereUndo() const {
+    return canUndo() ? std::optional(acts_[done_ - 1]->where_lps_mm()) : std::nullopt;
+  }
+  std::optional<Eigen::Vector3d> whereRedo() const {
+    return canRedo() ? std::optional(acts_[done_]->where_lps_mm()) : std::nullopt;
+  }
 
   bool canUndo() const { return done_ > 0; }
   bool canRedo() const { return done_ < acts_.size(); }

@@ -3,11 +3,15 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QSettings>
 #include <QStackedWidget>
 #include <QTableWidget>
 #include <QTreeWidget>
+#include <algorithm>
 #include <array>
+#include <memory>
 
+#include "dicom/thumbnail.h"
 #include "panels/form.h"
 #include "session/session.h"
 
@@ -16,8 +20,11 @@ namespace glisson::panels {
 namespace {
 
 using dicom::SeriesRole;
-constexpr std::array roles = {SeriesRole::Anatomical, SeriesRole::Magnitude,  SeriesRole::Wave, SeriesRole::Stiffness,
-                              SeriesRole::Confidence, SeriesRole::ColourCopy, SeriesRole::Other};
+constexpr std::array roles = {SeriesRole::Anatomical, SeriesRole::Magnitude,  SeriesRole::Wave,
+                              SeriesRole::Stiffness,  SeriesRole::Confidence, SeriesRole::Phase,
+                              SeriesRole::ColourCopy, SeriesRole::Other};
+
+constexpr int thumbnail_px = 56;
 
 QTableWidgetItem* cell(const QString& text, const QString& tip = {}) {
   auto* item = new QTableWidgetItem(text);
@@ -81,6 +88,16 @@ QWidget* LoadPage::makeWelcome() {
   row->addWidget(open);
   row->addWidget(synthetic);
   layout->addLayout(row);
+  const QStringList recent = QSettings().value(QStringLiteral("recent")).toStringList().mid(0, 4);
+  if (!recent.isEmpty()) layout->addWidget(section(tr("Recent")));
+  for (const QString& path : recent) {
+    const QString shown = path.endsWith(QStringLiteral("/case.json")) ? path.section(QLatin1Char('/'), -2, -2)
+                                                                      : path.section(QLatin1Char('/'), -1);
+    auto* again = button("recentButton", shown, QStringLiteral("load"), path);
+    again->setProperty("flat", true);
+    layout->addWidget(again);
+    connect(again, &QPushButton::clicked, this, [this, path] { emit pathWanted(path); });
+  }
   outer->addWidget(card, 0, Qt::AlignCenter);
   connect(open, &QPushButton::clicked, this, &LoadPage::openWanted);
   connect(synthetic, &QPushButton::clicked, this, &LoadPage::syntheticWanted);
@@ -107,7 +124,8 @@ QWidget* LoadPage::makeTable() {
   table_->setHorizontalHeaderLabels(
       {tr("No."), tr("Description"), tr("Role"), tr("Why"), tr("Voxels"), tr("Spacing"), tr("Warnings")});
   table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(34);
+  table_->verticalHeader()->setDefaultSectionSize(thumbnail_px + 8);
+  table_->setIconSize({thumbnail_px, thumbnail_px});
   table_->setShowGrid(false);
   table_->setAlternatingRowColors(true);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -150,10 +168,40 @@ void LoadPage::fill() {
     for (const std::string& w : s.warnings) warnings << QString::fromStdString(w);
     table_->setItem(row, 6, cell(warnings.join(QStringLiteral("; ")), warnings.join(QLatin1Char('\n'))));
   }
+  drawThumbnails();
   skipped_->clear();
   for (const dicom::SkippedFile& f : scan.skipped)
     new QTreeWidgetItem(skipped_,
                         {QString::fromStdString(f.file.filename().string()), QString::fromStdString(f.reason)});
+}
+
+// The middle slice of every series, read and averaged down by a worker.
+void LoadPage::drawThumbnails() {
+  if (painter_.busy()) return;
+  auto pictures = std::make_shared<std::vector<dicom::Thumbnail>>();
+  const int size = qRound(thumbnail_px * devicePixelRatioF());
+  const QString path = session_.path();
+  painter_.start(
+      [pictures, size, series = session_.scan().series](const Progress& progress) {
+        for (const dicom::Series& s : series) {
+          progress.check();
+          pictures->push_back(dicom::thumbnail(s, size));
+        }
+      },
+      [this, pictures, path](std::exception_ptr failure) {
+        if (path != session_.path()) {
+          drawThumbnails();  // another patient was opened meanwhile
+          return;
+        }
+        if (failure) return;  // the table says what is wrong with a series
+        for (int row = 0; row < std::min(table_->rowCount(), static_cast<int>(pictures->size())); ++row) {
+          const dicom::Thumbnail& t = (*pictures)[static_cast<std::size_t>(row)];
+          if (t.width == 0 || !table_->item(row, 1)) continue;
+          QImage image = QImage(t.grey.data(), t.width, t.height, t.width, QImage::Format_Grayscale8).copy();
+          image.setDevicePixelRatio(devicePixelRatioF());
+          table_->item(row, 1)->setIcon(QIcon(QPixmap::fromImage(image)));
+        }
+      });
 }
 
 }  // namespace glisson::panels

@@ -2,6 +2,8 @@
 
 #include <QWidget>
 
+#include "session/worker.h"
+
 class QLabel;
 class QPushButton;
 class QStackedWidget;
@@ -23,16 +25,19 @@ class LoadPage : public QWidget {
  signals:
   void openWanted();
   void syntheticWanted();
+  void pathWanted(const QString& path);  ///< a recent one
 
  private:
   QWidget* makeWelcome();
   QWidget* makeTable();
   void fill();
+  void drawThumbnails();
   session::Session& session_;
   QStackedWidget* stack_;
   QTableWidget* table_;
   QTreeWidget* skipped_;
   QLabel* summary_;
+  session::Worker painter_;  ///< of thumbnails
 };
 
 }  // namespace glisson::panels

@@ -1,24 +1,23 @@
 #include "panels/main_window.h"
 
 #include <QAction>
-#include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
-#include <QDragEnterEvent>
-#include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QMenuBar>
 #include <QMessageBox>
-#include <QMimeData>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QStackedWidget>
 #include <QStatusBar>
+#include <QTimer>
+#include <QVBoxLayout>
 #include <cmath>
 
 #include "base/version.h"
 #include "panels/compare_page.h"
+#include "panels/key_sheet.h"
+#include "panels/keys.h"
 #include "panels/load_page.h"
 #include "panels/model_page.h"
 #include "panels/retract_page.h"
@@ -44,10 +43,11 @@ QString timeText(double seconds) {
 
 MainWindow::MainWindow(QWidget* parent)
     : QMainWindow(parent),
+      keys_(new Keys(this)),
       rail_(new StepRail),
       pages_(new QStackedWidget),
       load_(new LoadPage(session_)),
-      segment_(new SegmentPage(session_)),
+      segment_(new SegmentPage(session_, *keys_)),
       model_(new ModelPage(session_)),
       retract_(new RetractPage(session_)),
       compare_(new ComparePage(session_)),
@@ -67,7 +67,17 @@ MainWindow::MainWindow(QWidget* parent)
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(0);
   row->addWidget(rail_);
-  row->addWidget(pages_, 1);
+  auto* main = new QWidget;
+  auto* column = new QVBoxLayout(main);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(0);
+  recovery_ = new QFrame;
+  recovery_->setObjectName(QStringLiteral("recoveryBar"));
+  recovery_->setLayout(new QHBoxLayout);
+  recovery_->hide();
+  column->addWidget(recovery_);
+  column->addWidget(pages_, 1);
+  row->addWidget(main, 1);
   setCentralWidget(centre);
   makeMenus();
   makeStatusLine();
@@ -75,58 +85,7 @@ MainWindow::MainWindow(QWidget* parent)
   refreshIcons();
   showStep(Step::Load);
   updateStatus();
-}
-
-void MainWindow::makeMenus() {
-  const auto add = [this](QMenu* menu, const char* name, const QString& text, const QKeySequence& keys, auto slot) {
-    QAction* action = menu->addAction(text);
-    action->setObjectName(QString::fromLatin1(name));
-    action->setShortcut(keys);
-    connect(action, &QAction::triggered, this, slot);
-    return action;
-  };
-  QMenu* file = menuBar()->addMenu(tr("&File"));
-  add(file, "openAction", tr("&Open DICOM folder…"), QKeySequence::Open, &MainWindow::openFolder);
-  add(file, "syntheticAction", tr("Synthetic &patient"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_N),
-      &MainWindow::openSynthetic);
-  file->addSeparator();
-  importAction_ = add(file, "importAction", tr("&Import outlines…"), QKeySequence(Qt::CTRL | Qt::Key_I),
-                      &MainWindow::importOutlines);
-  saveAction_ = add(file, "saveAction", tr("&Save case…"), QKeySequence::Save, &MainWindow::saveCase);
-  file->addSeparator();
-  add(file, "quitAction", tr("&Quit"), QKeySequence::Quit, &QWidget::close);
-  QMenu* edit = menuBar()->addMenu(tr("&Edit"));
-  undoAction_ = add(edit, "undoAction", tr("&Undo"), QKeySequence::Undo, [this] { session_.undo(); });
-  redoAction_ =
-      add(edit, "redoAction", tr("&Redo"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z), [this] { session_.redo(); });
-  edit->addSeparator();
-  interpolateAction_ = add(edit, "interpolateAction", tr("&Interpolate between slices"), QKeySequence(Qt::Key_B),
-                           [this] { session_.interpolateOutlines(); });
-  acceptAllAction_ = add(edit, "acceptAllAction", tr("&Accept all interpolated outlines"),
-                         QKeySequence(Qt::SHIFT | Qt::Key_B), [this] { session_.acceptInterpolated(); });
-  QMenu* work = menuBar()->addMenu(tr("&Run"));
-  runAction_ =
-      add(work, "runAction", tr("&Build, retract and compare"), QKeySequence(Qt::CTRL | Qt::Key_R), &MainWindow::run);
-  add(work, "cancelAction", tr("&Cancel"), QKeySequence(Qt::CTRL | Qt::Key_Period), [this] { session_.cancel(); });
-  QMenu* view = menuBar()->addMenu(tr("&View"));
-  auto* themes = new QActionGroup(this);
-  for (const Theme theme : {Theme::Dark, Theme::Light}) {
-    QAction* action = add(view, theme == Theme::Dark ? "darkTheme" : "lightTheme",
-                          theme == Theme::Dark ? tr("&Dark theme") : tr("&Light theme"), {}, [this, theme] {
-                            applyTheme(theme);
-                            refreshIcons();
-                          });
-    action->setCheckable(true);
-    action->setChecked(theme == currentTheme());
-    themes->addAction(action);
-  }
-  view->addSeparator();
-  add(view, "fitAction", tr("&Fit images"), QKeySequence(Qt::CTRL | Qt::Key_0), [this] {
-    segment_->mriView()->fit();
-    segment_->mreView()->fit();
-  });
-  QMenu* help = menuBar()->addMenu(tr("&Help"));
-  add(help, "aboutAction", tr("&About Glisson"), {}, &MainWindow::about);
+  QTimer::singleShot(0, this, &MainWindow::offerRecovery);
 }
 
 void MainWindow::makeStatusLine() {
@@ -156,7 +115,23 @@ void MainWindow::connectSession() {
   connect(rail_, &StepRail::stepChosen, this, &MainWindow::showStep);
   connect(load_, &LoadPage::openWanted, this, &MainWindow::openFolder);
   connect(load_, &LoadPage::syntheticWanted, this, &MainWindow::openSynthetic);
+  connect(load_, &LoadPage::pathWanted, this, &MainWindow::openPath);
   connect(segment_, &SegmentPage::importWanted, this, &MainWindow::importOutlines);
+  connect(segment_, &SegmentPage::helpWanted, this, &MainWindow::showKeys);
+  connect(segment_, &SegmentPage::secondReaderWanted, this, &MainWindow::loadSecondReader);
+  connect(&session_, &Session::readersCompared, this, [this](const QString& text) {
+    auto* box = new QMessageBox(QMessageBox::Information, tr("Two readers"), text, QMessageBox::Ok, this);
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setObjectName(QStringLiteral("readersBox"));
+    box->open();
+  });
+  connect(&session_, &Session::saved, this, [this](int version) {
+    statusBar()->showMessage(tr("Saved, version %1.").arg(version), 6000);
+    remember(session_.caseFolder() + QStringLiteral("/case.json"));
+  });
+  connect(&session_, &Session::saveFailed, this, [this](const QString& reason) {
+    statusBar()->showMessage(tr("Not saved: %1 The outlines are kept.").arg(reason));
+  });
   connect(model_, &ModelPage::runWanted, this, &MainWindow::run);
   connect(retract_, &RetractPage::runWanted, this, &MainWindow::run);
   connect(&session_, &Session::statusChanged, this, &MainWindow::updateStatus);
@@ -177,6 +152,8 @@ void MainWindow::connectSession() {
     if (!reason.isEmpty()) statusBar()->showMessage(reason);
   });
   connect(&session_, &Session::loaded, this, [this] {
+    const QString folder = session_.caseFolder();
+    remember(folder.isEmpty() ? session_.path() : folder + QStringLiteral("/case.json"));
     if (session_.images().mri && step() == Step::Load) showStep(Step::Segment);
   });
   connect(&session_, &Session::runFinished, this, [this] { showStep(Step::Compare); });
@@ -196,6 +173,7 @@ void MainWindow::updateStatus() {
   redoAction_->setText(session_.canRedo() ? tr("&Redo %1").arg(session_.redoText()) : tr("&Redo"));
   importAction_->setEnabled(open);
   saveAction_->setEnabled(open);
+  saveAsAction_->setEnabled(open);
   runAction_->setEnabled(session_.acceptedCount() > 0 && !session_.busy());
   const session::OutlineCoverage outlines = session_.coverage();
   interpolateAction_->setEnabled(outlines.drawn.size() > 1 &&
@@ -236,38 +214,6 @@ bool MainWindow::mayDiscard() {
                                QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Cancel) == QMessageBox::Discard;
 }
 
-void MainWindow::openFolder() {
-  if (!mayDiscard()) return;
-  const QString folder = QFileDialog::getExistingDirectory(this, tr("Open DICOM folder"), session_.path());
-  if (folder.isEmpty()) return;
-  showStep(Step::Load);
-  session_.openPath(folder);
-}
-
-void MainWindow::openSynthetic() {
-  if (!mayDiscard()) return;
-  showStep(Step::Load);
-  session_.openSynthetic();
-}
-
-void MainWindow::importOutlines() {
-  const QString file =
-      QFileDialog::getOpenFileName(this, tr("Import outlines"), session_.path(),
-                                   tr("Outlines (*.dcm *.json *.nii *.nii.gz *.nrrd *.mha);;All files (*)"));
-  if (file.isEmpty()) return;
-  attempt(tr("Import outlines"), [&] { session_.importContours(file); });
-  showStep(Step::Segment);
-}
-
-void MainWindow::saveCase() {
-  const QString folder = QFileDialog::getExistingDirectory(this, tr("Save case into a folder"));
-  if (folder.isEmpty()) return;
-  attempt(tr("Save case"), [&] {
-    session_.saveCase(folder);
-    statusBar()->showMessage(tr("Saved. Run it again with: glisson-cli run scene.json"), 12000);
-  });
-}
-
 void MainWindow::run() {
   if (step() == Step::Load || step() == Step::Segment) showStep(Step::Retract);
   session_.run();
@@ -284,15 +230,10 @@ void MainWindow::about() {
   box.exec();
 }
 
-void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
-}
-
-void MainWindow::dropEvent(QDropEvent* event) {
-  const QList<QUrl> urls = event->mimeData()->urls();
-  if (urls.isEmpty() || !urls.front().isLocalFile() || !mayDiscard()) return;
-  showStep(Step::Load);
-  session_.openPath(urls.front().toLocalFile());
+void MainWindow::showKeys() {
+  if (!sheet_) sheet_ = new KeySheet(*keys_, this);
+  sheet_->show();
+  sheet_->raise();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -6,6 +6,8 @@
 #include "session/session.h"
 
 class QAction;
+class QFrame;
+class QMenu;
 class QLabel;
 class QProgressBar;
 class QPushButton;
@@ -14,6 +16,8 @@ class QStackedWidget;
 namespace glisson::panels {
 
 class ComparePage;
+class KeySheet;
+class Keys;
 class LoadPage;
 class ModelPage;
 class RetractPage;
@@ -34,9 +38,14 @@ class MainWindow : public QMainWindow {
   void openFolder();
   void openSynthetic();
   void importOutlines();
-  void saveCase();
+  void saveCase();  ///< where it was saved before; else asks
+  void saveCaseAs();
+  void openCase();
+  void openPath(const QString& path);  ///< a folder, DICOMDIR, ZIP or case
+  void loadSecondReader();
   void run();
   void about();
+  void showKeys();
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -51,10 +60,14 @@ class MainWindow : public QMainWindow {
   void updateStatus();
   void showProgress(double fraction, const QString& what, double secondsLeft);
   bool mayDiscard();
+  void offerRecovery();
+  void remember(const QString& path);  ///< among the recent ones
+  void fillRecent();
   /// Runs something that may fail on the user's files, and shows the reason where it does.
   void attempt(const QString& title, const std::function<void()>& work);
 
   session::Session session_;
+  Keys* keys_;
   StepRail* rail_;
   QStackedWidget* pages_;
   LoadPage* load_;
@@ -65,8 +78,12 @@ class MainWindow : public QMainWindow {
   QProgressBar* progress_;
   QLabel* progressText_;
   QPushButton* cancel_;
+  QMenu* recent_ = nullptr;
+  QFrame* recovery_ = nullptr;
+  KeySheet* sheet_ = nullptr;
   QAction *undoAction_ = nullptr, *redoAction_ = nullptr, *runAction_ = nullptr, *saveAction_ = nullptr,
-          *importAction_ = nullptr, *interpolateAction_ = nullptr, *acceptAllAction_ = nullptr;
+          *importAction_ = nullptr, *interpolateAction_ = nullptr, *acceptAllAction_ = nullptr,
+          *saveAsAction_ = nullptr;
 };
 
 }  // namespace glisson::panels

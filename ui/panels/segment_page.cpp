@@ -1,53 +1,58 @@
 #include "panels/segment_page.h"
 
 #include <QButtonGroup>
+#include <QComboBox>
 #include <QHBoxLayout>
-#include <QHeaderView>
-#include <QShortcut>
+#include <QKeyEvent>
 #include <QSplitter>
-#include <QTreeWidget>
-#include <algorithm>
 #include <cmath>
 
 #include "panels/form.h"
+#include "panels/grey_window.h"
+#include "panels/image_layers.h"
+#include "panels/keys.h"
+#include "panels/outline_panel.h"
 #include "session/session.h"
 #include "views/slice_view.h"
 
 namespace glisson::panels {
 
-namespace {
+using tools::Command;
+using views::SliceView;
 
-/// Grey window that holds the middle 99 % of the voxels that are not black.
-std::pair<double, double> windowOf(const image::ScalarVolume& volume) {
-  std::vector<float> sample;
-  const std::size_t step = std::max<std::size_t>(1, volume.values.size() / 200000);
-  for (std::size_t i = 0; i < volume.values.size(); i += step)
-    if (std::isfinite(volume.values[i]) && volume.values[i] != 0.0F) sample.push_back(volume.values[i]);
-  if (sample.size() < 10) return {0.0, 1.0};
-  const auto at = [&sample](double q) {
-    const auto n = static_cast<std::ptrdiff_t>(q * static_cast<double>(sample.size() - 1));
-    std::nth_element(sample.begin(), sample.begin() + n, sample.end());
-    return static_cast<double>(sample[static_cast<std::size_t>(n)]);
-  };
-  const double low = at(0.005), high = at(0.995);
-  return {low, high > low ? high : low + 1.0};
-}
-
-QString kPa(double value) {
-  return std::isfinite(value) ? QString::number(value, 'f', 2) : QStringLiteral("–");
-}
-
-}  // namespace
-
-SegmentPage::SegmentPage(session::Session& session, QWidget* parent)
-    : QWidget(parent), session_(session), mri_(new views::SliceView), mre_(new views::SliceView) {
+SegmentPage::SegmentPage(session::Session& session, Keys& keys, QWidget* parent)
+    : QWidget(parent),
+      session_(session),
+      keys_(keys),
+      mri_(new SliceView),
+      mre_(new SliceView),
+      layers_(new ImageLayers(mre_)),
+      panel_(new OutlinePanel(session, keys)) {
   mri_->setObjectName(QStringLiteral("mriView"));
   mre_->setObjectName(QStringLiteral("mreView"));
   mri_->setHint(tr("Open images first (step Load)."));
   mre_->setHint(tr("No elastogram is open."));
+  mri_->setAccessibleName(tr("MRI slice"));
+  mre_->setAccessibleName(tr("Elastography slice"));
+  const auto column = [](QWidget* above, SliceView* view) {
+    auto* both = new QWidget;
+    auto* layout = new QVBoxLayout(both);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(above);
+    layout->addWidget(view, 1);
+    return both;
+  };
+  auto* strip = new QWidget;
+  auto* row = new QHBoxLayout(strip);
+  row->setContentsMargins(8, 4, 8, 4);
+  row->setSpacing(4);
+  makeStrip(row);
+  strip->setFixedHeight(42);
+  layers_->setFixedHeight(42);
   auto* splitter = new QSplitter;
-  splitter->addWidget(mri_);
-  splitter->addWidget(mre_);
+  splitter->addWidget(column(strip, mri_));
+  splitter->addWidget(column(layers_, mre_));
   splitter->setChildrenCollapsible(false);
   splitter->setHandleWidth(3);
   splitter->setSizes({1000, 1000});
@@ -55,154 +60,127 @@ SegmentPage::SegmentPage(session::Session& session, QWidget* parent)
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   layout->addWidget(splitter, 1);
-  layout->addWidget(makeSide());
+  layout->addWidget(panel_);
   mri_->setContours(&session_.contours(), &session_.tool());
   mre_->setContours(&session_.contours(), nullptr);
+  mri_->setMeasurements(&measure_);
+  mre_->setMeasurements(&measure_);
+  for (SliceView* view : {mri_, mre_}) {
+    view->setSecondReader(&session_.secondReader());
+    connect(view, &SliceView::keyDown, this, &SegmentPage::keyDown);
+    connect(view, &SliceView::keyUp, this, &SegmentPage::keyUp);
+  }
   connectTool();
   connectCursor();
+  connect(panel_, &OutlinePanel::commandWanted, this, &SegmentPage::run);
+  connect(panel_, &OutlinePanel::sliceWanted, mri_, &SliceView::setSlice);
+  connect(panel_, &OutlinePanel::importWanted, this, &SegmentPage::importWanted);
+  connect(panel_, &OutlinePanel::scaleWanted, layers_, &ImageLayers::setStiffnessScale);
   connect(&session_, &session::Session::loaded, this, &SegmentPage::showImages);
-  connect(&session_, &session::Session::statisticsChanged, this, &SegmentPage::showStatistics);
-  connect(&session_, &session::Session::contoursChanged, this, &SegmentPage::showOutlines);
   connect(&session_, &session::Session::toolChanged, this, &SegmentPage::showTool);
-  connect(&session_, &session::Session::statusChanged, this, &SegmentPage::showActions);
-  connect(&session_, &session::Session::pointWanted, mri_, &views::SliceView::showPoint);
+  connect(&session_, &session::Session::contoursChanged, this, &SegmentPage::showSlice);
+  connect(&session_, &session::Session::statisticsChanged, this, [this] { mre_->setInner(session_.innerMask()); });
+  connect(&session_, &session::Session::pointWanted, mri_, &SliceView::showPoint);
   showTool();
 }
 
-QWidget* SegmentPage::makeSide() {
-  QVBoxLayout* side = nullptr;
-  QFrame* frame = sidePanel(side);
-  side->addWidget(labelled(tr("Outline the liver"), "heading"));
-  stateText_ = labelled({}, "faint");
-  stateText_->setObjectName(QStringLiteral("toolState"));
-  stateText_->setMinimumHeight(50);
-  stateText_->setAlignment(Qt::AlignTop);
-  side->addWidget(stateText_);
-
-  auto* row = new QHBoxLayout;
-  undo_ = button("undoButton", {}, QStringLiteral("undo"), tr("Undo (Ctrl+Z)"));
-  redo_ = button("redoButton", {}, QStringLiteral("redo"), tr("Redo (Ctrl+Shift+Z)"));
-  delete_ =
-      button("deleteButton", {}, QStringLiteral("delete"), tr("Delete the selected vertices or outline (Delete)"));
-  accept_ = button("acceptButton", tr("Accept"), QStringLiteral("accept"),
-                   tr("Close or accept the outline (Enter; both at once: Ctrl+Enter)"));
-  accept_->setProperty("primary", true);
-  for (QPushButton* b : {undo_, redo_, delete_}) row->addWidget(b);
-  side->addWidget(accept_);
-  side->addLayout(row);
-  const auto key = [this](tools::ToolKey k) { session_.apply(session_.tool().key(k, mri_->plane())); };
-  connect(undo_, &QPushButton::clicked, &session_, &session::Session::undo);
-  connect(redo_, &QPushButton::clicked, &session_, &session::Session::redo);
-  connect(delete_, &QPushButton::clicked, this, [key] { key(tools::ToolKey::Delete); });
-  connect(accept_, &QPushButton::clicked, this, [key] { key(tools::ToolKey::Enter); });
-
-  side->addSpacing(8);
-  side->addWidget(section(tr("Stiffness under the outline")));
-  readout_ = labelled({}, "number");
-  readout_->setObjectName(QStringLiteral("liveMean"));
-  side->addWidget(readout_);
-  pooled_ = labelled({}, "faint");
-  pooled_->setObjectName(QStringLiteral("liveReadout"));
-  pooled_->setMinimumHeight(76);
-  pooled_->setAlignment(Qt::AlignTop);
-  side->addWidget(pooled_);
-  cursor_ = labelled({}, "faint");
-  cursor_->setObjectName(QStringLiteral("cursorReadout"));
-  side->addWidget(cursor_);
-
-  side->addWidget(section(tr("Colour scale")));
-  auto* scales = new QHBoxLayout;
+void SegmentPage::makeStrip(QHBoxLayout* strip) {
   auto* group = new QButtonGroup(this);
-  for (const double high : {8.0, 20.0}) {
-    auto* scale = button(high < 10 ? "scale8" : "scale20", tr("0 – %1 kPa").arg(high), {}, tr("Switch with K"));
-    scale->setCheckable(true);
-    scale->setChecked(high < 10);
-    group->addButton(scale);
-    scales->addWidget(scale);
-    connect(scale, &QPushButton::clicked, this, [this, high] { setStiffnessScale(high); });
-  }
-  side->addLayout(scales);
-  auto* switchScale = new QShortcut(QKeySequence(Qt::Key_K), this);
-  connect(switchScale, &QShortcut::activated, this, [group] {
-    for (QAbstractButton* b : group->buttons())
-      if (!b->isChecked()) {
-        b->click();
-        return;
-      }
-  });
-
-  side->addSpacing(8);
-  side->addWidget(section(tr("Outlines")));
-  outlines_ = new QTreeWidget;
-  outlines_->setObjectName(QStringLiteral("outlineList"));
-  outlines_->setHeaderLabels({tr("Slice"), tr("Vertices"), tr("State")});
-  outlines_->setRootIsDecorated(false);
-  outlines_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  outlines_->header()->setSectionResizeMode(QHeaderView::Stretch);
-  side->addWidget(outlines_, 1);
-  connect(outlines_, &QTreeWidget::itemClicked, this,
-          [this](QTreeWidgetItem* item) { mri_->setSlice(item->data(0, Qt::UserRole).toInt()); });
-  coverage_ = labelled({}, "faint");
-  coverage_->setObjectName(QStringLiteral("outlineCoverage"));
-  side->addWidget(coverage_);
-  auto* fill = new QHBoxLayout;
-  interpolate_ = button("interpolateButton", tr("Interpolate"), QStringLiteral("interpolate"),
-                        tr("Interpolate between slices: fill empty slices between outlines by shape (B)"));
-  acceptAll_ = button("acceptAllButton", tr("Accept all"), QStringLiteral("accept"),
-                      tr("Accept all interpolated outlines (Shift+B)"));
-  for (QPushButton* b : {interpolate_, acceptAll_}) fill->addWidget(b, 1);
-  side->addLayout(fill);
-  connect(interpolate_, &QPushButton::clicked, &session_, &session::Session::interpolateOutlines);
-  connect(acceptAll_, &QPushButton::clicked, &session_, &session::Session::acceptInterpolated);
-  import_ = button("importButton", tr("Import outlines…"), QStringLiteral("import"),
-                   tr("RT Structure Set, contour file or mask (Ctrl+I)"));
-  side->addWidget(import_);
-  connect(import_, &QPushButton::clicked, this, &SegmentPage::importWanted);
-  return frame;
+  const auto tool = [&](const char* name, const char* iconName, Command command) {
+    QPushButton* b = button(name, {}, QString::fromLatin1(iconName), keys_.tip(command));
+    b->setAccessibleName(nameOf(command));
+    b->setProperty("flat", true);
+    b->setCheckable(true);
+    strip->addWidget(b);
+    connect(b, &QPushButton::clicked, this, [this, command] { run(command); });
+    return b;
+  };
+  polygon_ = tool("polygonTool", "polygon", Command::Polygon);
+  freehand_ = tool("freehandTool", "freehand", Command::Freehand);
+  sculpt_ = tool("sculptTool", "sculpt", Command::Sculpt);
+  ruler_ = tool("measureTool", "measure", Command::Measure);
+  window_ = tool("windowTool", "window", Command::WindowLevel);
+  for (QPushButton* b : {polygon_, freehand_, sculpt_, ruler_, window_}) group->addButton(b);
+  polygon_->setChecked(true);
+  strip->addStretch();
+  auto* presets = new QComboBox;
+  presets->setObjectName(QStringLiteral("windowPreset"));
+  presets->setToolTip(tr("Window and level of the MRI (0 to 5)"));
+  presets->addItems({tr("Auto"), tr("Soft"), tr("Liver"), tr("Vessels"), tr("Bright"), tr("Dark")});
+  strip->addWidget(presets);
+  connect(presets, &QComboBox::activated, this, &SegmentPage::preset);
+  link_ = tool("linkViews", "link", Command::LinkViews);
+  link_->setChecked(true);
+  auto* propose = tool("proposeOutline", "propose", Command::Propose);
+  propose->setCheckable(false);
+  auto* help = tool("helpButton", "help", Command::Help);
+  help->setCheckable(false);
 }
 
 void SegmentPage::connectTool() {
-  using views::SliceView;
-  const auto pass = [this](auto signal, auto gesture) {
-    connect(mri_, signal, this, [this, gesture](const tools::Pointer& at) {
+  const auto pass = [this](auto signal, auto gesture, auto ruler) {
+    connect(mri_, signal, this, [this, gesture, ruler](const tools::Pointer& at) {
+      if (hand_ == Hand::Measure) {
+        if (ruler) (measure_.*ruler)(at.px, mri_->plane());
+        mri_->update();
+        mre_->update();
+        return;
+      }
       session_.apply((session_.tool().*gesture)(at, mri_->plane()));
     });
   };
-  pass(&SliceView::toolPressed, &tools::PolygonTool::press);
-  pass(&SliceView::toolMoved, &tools::PolygonTool::move);
-  pass(&SliceView::toolReleased, &tools::PolygonTool::release);
-  pass(&SliceView::toolDoubleClicked, &tools::PolygonTool::doubleClick);
-  pass(&SliceView::toolRightClicked, &tools::PolygonTool::rightClick);
-  connect(mri_, &SliceView::toolKey, this,
-          [this](tools::ToolKey key) { session_.apply(session_.tool().key(key, mri_->plane())); });
+  using Ruler = void (tools::MeasureTool::*)(const Eigen::Vector2d&, const tools::SlicePlane&);
+  pass(&SliceView::toolPressed, &tools::PolygonTool::press, &tools::MeasureTool::press);
+  pass(&SliceView::toolMoved, &tools::PolygonTool::move, &tools::MeasureTool::move);
+  pass(&SliceView::toolReleased, &tools::PolygonTool::release, &tools::MeasureTool::release);
+  pass(&SliceView::toolDoubleClicked, &tools::PolygonTool::doubleClick, static_cast<Ruler>(nullptr));
+  connect(mri_, &SliceView::toolDoubleClicked, this, [this] {
+    if (const auto polygon = session_.tool().takePropertiesWish()) showProperties(*polygon);
+  });
+  connect(mri_, &SliceView::toolRightClicked, this, [this](const tools::Pointer& at) {
+    const bool drawing = session_.tool().state() == tools::ToolState::Drawing;
+    session_.apply(session_.tool().rightClick(at, mri_->plane()));
+    if (!drawing) showMenu(mri_->mapToGlobal(QPointF(at.px.x(), at.px.y()).toPoint()));
+  });
   connect(mri_, &SliceView::sliceAboutToChange, this,
           [this] { session_.apply(session_.tool().leaveSlice(mri_->plane())); });
 }
 
 void SegmentPage::connectCursor() {
-  using views::SliceView;
-  connect(mri_, &SliceView::sliceChanged, this, [this] {
-    const tools::SlicePlane plane = mri_->plane();
-    const Eigen::Vector3d middle =
-        plane.grid.indexToLps({plane.grid.size.x() / 2.0, plane.grid.size.y() / 2.0, 1.0 * plane.slice});
-    if (!mre_->underMouse()) mre_->showPoint(middle);
-    session_.setShownPlane(plane);
-    outlines_->clearSelection();
-    showOutlines();
+  const auto middleOf = [](const SliceView* view) {
+    const tools::SlicePlane plane = view->plane();
+    return plane.grid.indexToLps({plane.grid.size.x() / 2.0, plane.grid.size.y() / 2.0, 1.0 * plane.slice});
+  };
+  // One view leads, the other follows; what follows does not lead in turn.
+  connect(mri_, &SliceView::sliceChanged, this, [this, middleOf] {
+    if (linked_ && !following_) {
+      following_ = true;
+      mre_->showPoint(middleOf(mri_));
+      following_ = false;
+    }
+    session_.setShownPlane(mri_->plane());
+    showSlice();
   });
-  connect(mre_, &SliceView::sliceChanged, this, [this] {
-    if (!mre_->underMouse()) return;
-    const tools::SlicePlane plane = mre_->plane();
-    mri_->showPoint(plane.grid.indexToLps({plane.grid.size.x() / 2.0, plane.grid.size.y() / 2.0, 1.0 * plane.slice}));
+  connect(mre_, &SliceView::sliceChanged, this, [this, middleOf] {
+    if (!linked_ || following_ || !mre_->underMouse()) return;
+    following_ = true;
+    mri_->showPoint(middleOf(mre_));
+    following_ = false;
   });
+  connect(mri_, &SliceView::placeChanged, this, [this] { linkPlace(mri_, mre_); });
+  connect(mre_, &SliceView::placeChanged, this, [this] { linkPlace(mre_, mri_); });
   const auto both = [this](const std::optional<Eigen::Vector3d>& p) {
+    cursor_ = p;
     mri_->setCursor(p);
     mre_->setCursor(p);
     QString text;
-    if (p) {
-      if (const auto value = mre_->valueAt(*p)) text = tr("Under the cursor: %1 kPa (µ)").arg(*value, 0, 'f', 2);
+    if (p && session_.images().stiffness) {
+      const image::ScalarVolume& map = session_.images().stiffness->values_kPa;
+      const Eigen::Vector3i voxel = map.grid.lpsToIndex(*p).array().round().matrix().cast<int>();
+      if (map.grid.contains(voxel))
+        text = tr("Under the cursor: %1 kPa (µ)").arg(static_cast<double>(map.at(voxel)), 0, 'f', 2);
     }
-    cursor_->setText(text);
+    panel_->setCursorText(text);
   };
   for (SliceView* view : {mri_, mre_}) {
     connect(view, &SliceView::cursorMoved, this, [both](const Eigen::Vector3d& p) { both(p); });
@@ -210,11 +188,20 @@ void SegmentPage::connectCursor() {
   }
 }
 
+void SegmentPage::linkPlace(SliceView* from, SliceView* to) {
+  if (!linked_ || following_ || !to->hasVolume()) return;
+  following_ = true;
+  to->showPlace(from->centre_lps(), from->zoom_px_mm());
+  following_ = false;
+}
+
 void SegmentPage::showImages() {
   const session::OpenImages& images = session_.images();
+  measure_.clear();
   if (!images.mri) {
     mri_->clear();
     mre_->clear();
+    panel_->setSlice(-1);
     return;
   }
   views::ShownVolume mri;
@@ -223,133 +210,25 @@ void SegmentPage::showImages() {
   mri.title = tr("MRI");
   mri.sopInstanceUids = session_.scan().series[static_cast<std::size_t>(images.mriSeries)].sopInstanceUids;
   mri_->setVolume(mri);
-  if (!images.stiffness) {
-    mre_->clear();
-    return;
-  }
-  views::ShownVolume mre;
-  // Shared with the map that is measured: what is seen is what counts.
-  mre.values = std::shared_ptr<const image::ScalarVolume>(images.stiffness, &images.stiffness->values_kPa);
-  if (images.stiffness->confidence)
-    mre.confidence = std::shared_ptr<const image::ScalarVolume>(images.stiffness, &*images.stiffness->confidence);
-  mre.confidenceThreshold = defaults::confidenceThreshold;
-  mre.stiffness = true;
-  mre.low = 0.0;
-  mre.high = 8.0;
-  mre.title = tr("MRE stiffness (µ)");
-  mre.unit = QStringLiteral("kPa");
-  mre_->setVolume(mre);
+  layers_->setImages(images);
   session_.setShownPlane(mri_->plane());
+  showSlice();
 }
 
-void SegmentPage::setStiffnessScale(double high_kPa) {
-  mre_->setWindow(0.0, high_kPa);
-}
-
-void SegmentPage::showStatistics() {
-  const session::LiveStatistics& live = session_.statistics();
-  if (!live.pooled) {
-    readout_->setText(QStringLiteral("–"));
-    pooled_->setText(live.reason);
-    return;
-  }
-  const auto line = [](const elastography::Statistics& s) {
-    return tr("%1 px → %2 after mask, %3 cm², %4 ± %5 kPa (µ)")
-        .arg(static_cast<qulonglong>(s.n_before_mask))
-        .arg(static_cast<qulonglong>(s.n))
-        .arg(s.area_mm2 / 100.0, 0, 'f', 1)
-        .arg(kPa(s.mean_kPa), kPa(s.sd_kPa));
-  };
-  const elastography::Statistics& all = live.pooled->pooled;
-  readout_->setText(tr("%1 ± %2 kPa").arg(kPa(all.mean_kPa), kPa(all.sd_kPa)));
-  QString text = tr("All slices: ") + line(all);
-  if (live.slice) text += QStringLiteral("\n") + tr("This slice: ") + line(*live.slice);
-  pooled_->setText(text);
-}
-
-void SegmentPage::showOutlines() {
-  outlines_->clear();
-  if (!mri_->hasVolume()) return;
-  const image::Grid& grid = mri_->volume().values->grid;
-  struct Row {
-    int slice;
-    QString vertices, state;
-    bool drawn;
-  };
-  std::vector<Row> rows;
-  for (const roi::Polygon& p : session_.contours().polygons) {
-    if (p.points_lps_mm.cols() == 0) continue;
-    const QString state = p.exclude                                    ? tr("left out")
-                          : p.state == roi::PolygonState::Accepted     ? tr("drawn")
-                          : p.state == roi::PolygonState::Interpolated ? tr("interpolated")
-                                                                       : tr("draft");
-    rows.push_back({tools::sliceOf(p, grid), QString::number(p.points_lps_mm.cols()), state,
-                    p.state == roi::PolygonState::Accepted});
-  }
-  const session::OutlineCoverage covered = session_.coverage();
-  for (const int k : covered.empty) rows.push_back({k, QStringLiteral("–"), tr("empty"), false});
-  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.slice > b.slice; });
-  for (const Row& r : rows) {
-    auto* item = new QTreeWidgetItem(outlines_, {QString::number(r.slice + 1), r.vertices, r.state});
-    item->setData(0, Qt::UserRole, r.slice);
-    if (r.slice == mri_->slice()) {
-      QFont bold = item->font(0);
-      bold.setBold(true);
-      for (int c = 0; c < 3; ++c) item->setFont(c, bold);
-    } else if (!r.drawn) {
-      for (int c = 0; c < 3; ++c) item->setForeground(c, palette().color(QPalette::PlaceholderText));
-    }
-  }
-  QString text;
-  if (!covered.drawn.empty()) {
-    text = tr("%1 drawn, %2 interpolated, %3 empty between them.")
-               .arg(covered.drawn.size())
-               .arg(covered.interpolated.size())
-               .arg(covered.empty.size());
-    if (!covered.empty.empty()) text += QLatin1Char(' ') + tr("A run fills these by shape.");
-  }
-  coverage_->setText(text);
-  showActions();
-}
-
-void SegmentPage::showActions() {
-  const session::OutlineCoverage covered = session_.coverage();
-  interpolate_->setEnabled(covered.drawn.size() > 1 && covered.empty.size() + covered.interpolated.size() > 0 &&
-                           !session_.busy());
-  acceptAll_->setEnabled(!covered.interpolated.empty());
+void SegmentPage::showSlice() {
+  panel_->setSlice(mri_->hasVolume() ? mri_->slice() : -1);
+  const auto mark = session_.markOf(mri_->slice());
+  mri_->setNote(!mark ? QString() : *mark == commands::SliceMark::NoLiver ? tr("no liver") : tr("no reliable wave"));
 }
 
 void SegmentPage::showTool() {
-  const tools::ToolState state = session_.tool().state();
-  const bool drawing = state == tools::ToolState::Drawing, editing = state == tools::ToolState::Editing;
-  undo_->setEnabled(session_.canUndo());
-  redo_->setEnabled(session_.canRedo());
-  undo_->setToolTip(tr("Undo %1 (Ctrl+Z)").arg(session_.undoText()));
-  redo_->setToolTip(tr("Redo %1 (Ctrl+Shift+Z)").arg(session_.redoText()));
-  accept_->setEnabled(drawing || editing);
-  accept_->setText(drawing ? tr("Close") : tr("Accept"));
-  delete_->setEnabled(session_.tool().selected().has_value());
-  showActions();
-  switch (state) {
-    case tools::ToolState::Idle:
-      stateText_->setText(tr("Click vertices on the MRI, or drag to draw freehand. Click an outline to edit it."));
-      break;
-    case tools::ToolState::Drawing:
-      stateText_->setText(
-          tr("Close on the first vertex, with a right click, a double click or Enter. Backspace takes "
-             "the last vertex back, Esc parks a draft."));
-      break;
-    case tools::ToolState::Editing:
-      stateText_->setText(session_.tool().interpolated()
-                              ? tr("Interpolated between drawn slices. Enter accepts it, correcting it accepts it too; "
-                                   "an outline drawn "
-                                   "on this slice replaces it.")
-                              : tr("Drag vertices to adjust; Ctrl+click adds or deletes one. Enter accepts."));
-      break;
-    case tools::ToolState::Accepted:
-      stateText_->setText(tr("Accepted. It can still be edited; click beside it to draw the next."));
-      break;
-  }
+  const tools::ToolMode mode = session_.tool().mode();
+  QPushButton* active = hand_ == Hand::Measure              ? ruler_
+                        : hand_ == Hand::Window             ? window_
+                        : mode == tools::ToolMode::Freehand ? freehand_
+                        : mode == tools::ToolMode::Sculpt   ? sculpt_
+                                                            : polygon_;
+  active->setChecked(true);
   mri_->update();
   mre_->update();
 }

@@ -1,14 +1,16 @@
 #pragma once
 
 #include <QWidget>
+#include <memory>
 #include <optional>
 
+#include "tools/keymap.h"
+#include "tools/measure_tool.h"
 #include "tools/polygon_tool.h"
 
-class QComboBox;
-class QLabel;
+class QHBoxLayout;
+class QKeyEvent;
 class QPushButton;
-class QTreeWidget;
 
 namespace glisson::session {
 class Session;
@@ -19,39 +21,64 @@ class SliceView;
 
 namespace glisson::panels {
 
+class ImageLayers;
+class Keys;
+class OutlinePanel;
+
 /// Segment: MRI and elastogram side by side with one cursor; outlines are drawn on the MRI and measured on both at
 /// once.
 class SegmentPage : public QWidget {
   Q_OBJECT
  public:
-  explicit SegmentPage(session::Session& session, QWidget* parent = nullptr);
+  SegmentPage(session::Session& session, Keys& keys, QWidget* parent = nullptr);
   views::SliceView* mriView() const { return mri_; }
   views::SliceView* mreView() const { return mre_; }
+  ImageLayers* layers() const { return layers_; }
+  const tools::MeasureTool& measurements() const { return measure_; }
+  bool linked() const { return linked_; }
+  /// Does what a key would do.
+  void run(tools::Command command);
+  /// What is in the left hand: an outline tool, the ruler, or the window.
+  enum class Hand { Outline, Measure, Window };
+  Hand hand() const { return hand_; }
 
  signals:
   void importWanted();
+  void helpWanted();
+  void secondReaderWanted();
 
  private:
-  QWidget* makeSide();
+  // segment_page.cpp
+  void makeStrip(QHBoxLayout* strip);
   void connectTool();
   void connectCursor();
   void showImages();
-  void showStatistics();
-  void showOutlines();
   void showTool();
-  void showActions();
-  void setStiffnessScale(double high_kPa);
+  void showSlice();
+  void linkPlace(views::SliceView* from, views::SliceView* to);
+  // segment_commands.cpp
+  void keyDown(QKeyEvent* event);
+  void keyUp(QKeyEvent* event);
+  bool runOutline(tools::Command command);
+  bool runView(tools::Command command);
+  void take(Hand hand, tools::ToolMode mode);
+  void nudge(const Eigen::Vector2d& pixels, int slices);
+  void inner(int change);
+  void preset(int number);
+  void showMenu(const QPoint& at);
+  void showProperties(std::size_t polygon);
+  void askCopyTo();
 
   session::Session& session_;
-  views::SliceView* mri_;
-  views::SliceView* mre_;
-  QLabel* readout_;
-  QLabel* pooled_;
-  QLabel* cursor_;
-  QLabel* stateText_;
-  QLabel* coverage_;
-  QTreeWidget* outlines_;
-  QPushButton *undo_, *redo_, *accept_, *delete_, *import_, *interpolate_, *acceptAll_;
+  Keys& keys_;
+  views::SliceView *mri_, *mre_;
+  ImageLayers* layers_;
+  OutlinePanel* panel_;
+  QPushButton *polygon_, *freehand_, *sculpt_, *ruler_, *window_, *link_;
+  tools::MeasureTool measure_;
+  Hand hand_ = Hand::Outline;
+  bool linked_ = true, following_ = false;
+  std::optional<Eigen::Vector3d> cursor_;
 };
 
 }  // namespace glisson::panels

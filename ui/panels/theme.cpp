@@ -45,7 +45,9 @@ QString styleSheet(const Colours& c) {
     QPushButton:disabled { color: %faint; border-color: %raised; }
     QPushButton[primary="true"] { background: %accent; color: %accentText; border-color: %accent; font-weight: 600; }
     QPushButton[primary="true"]:disabled { background: %raised; color: %faint; border-color: %raised; }
-    QPushButton:checked { background: %accent; color: %accentText; border-color: %accent; }
+    QPushButton[flat="true"] { background: transparent; border-color: transparent; padding: 5px 8px; }
+    QPushButton[flat="true"]:hover { background: %raised; } QPushButton[flat="true"]:disabled { color: %faint; }
+    QPushButton:checked, QPushButton[flat="true"]:checked { background: %accent; color: %accentText; border-color: %accent; }
     QPushButton:focus { border: 1px solid %accent; }
     QSpinBox, QDoubleSpinBox, QLineEdit { background: %base; border: 1px solid %border; border-radius: 5px;
       padding: 3px 6px; min-height: 20px; selection-background-color: %accent; }
@@ -71,6 +73,7 @@ QString styleSheet(const Colours& c) {
     QLabel#researchUse { color: %faint; font-weight: 600; padding: 0 8px; }
     QFrame[role="card"] { background: %base; border: 1px solid %border; border-radius: 8px; }
     QFrame#sidePanel { background: %window; border-left: 1px solid %border; }
+    QFrame#recoveryBar { background: %raised; border-bottom: 1px solid %accent; }
     QFrame#rail { background: %base; border-right: 1px solid %border; }
   )");
   const auto put = [&css](const char* key, const QColor& colour) { css.replace(QLatin1String(key), colour.name()); };

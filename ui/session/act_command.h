@@ -5,9 +5,11 @@
 #include <variant>
 
 #include "commands/add_polygon.h"
+#include "commands/change_kind.h"
 #include "commands/change_points.h"
 #include "commands/change_state.h"
 #include "commands/remove_polygon.h"
+#include "commands/replace_polygon.h"
 #include "tools/polygon_tool.h"
 
 namespace glisson::session {
@@ -23,9 +25,15 @@ inline std::unique_ptr<commands::Command> commandOf(const tools::Act& act, const
           return std::make_unique<commands::RemovePolygon>(contours, a.index);
         } else if constexpr (std::is_same_v<A, tools::ChangeState>) {
           return std::make_unique<commands::ChangeState>(contours, a.index, a.state);
+        } else if constexpr (std::is_same_v<A, tools::ChangeKind>) {
+          return std::make_unique<commands::ChangeKind>(contours, a.index, a.exclude);
+        } else if constexpr (std::is_same_v<A, tools::ReplacePolygon>) {
+          return std::make_unique<commands::ReplacePolygon>(contours, a.index, a.parts);
         } else {
           const char* text = a.change == tools::PointsChange::Move     ? "move vertices"
                              : a.change == tools::PointsChange::Insert ? "insert vertex"
+                             : a.change == tools::PointsChange::Sculpt ? "sculpt"
+                             : a.change == tools::PointsChange::Nudge  ? "nudge"
                                                                        : "delete vertices";
           return std::make_unique<commands::ChangePoints>(contours, a.index, a.points_lps_mm, text);
         }

@@ -36,11 +36,15 @@ inline std::optional<SettledAct> settleInterpolated(const tools::Act& act, const
   } else if (const auto* moved = std::get_if<tools::ChangePoints>(&act)) {
     if (contours.polygons.at(moved->index).state != PolygonState::Interpolated) return std::nullopt;
     index = moved->index;
+  } else if (const auto* cut = std::get_if<tools::ReplacePolygon>(&act)) {
+    if (contours.polygons.at(cut->index).state != PolygonState::Interpolated) return std::nullopt;
+    index = cut->index;
   } else {
     return std::nullopt;
   }
   const std::unique_ptr<commands::Command> alone = commandOf(act, contours);
-  roi::ContourStack after = contours;
+  commands::Outlines after;
+  static_cast<roi::ContourStack&>(after) = contours;
   alone->apply(after);
   const int slice = tools::sliceOf(after.polygons[*index], grid);
   bool any = false;

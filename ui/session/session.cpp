@@ -7,14 +7,17 @@
 
 #include "base/error.h"
 #include "elastography/roi_mapping.h"
+#include "image/morphology.h"
 #include "pipeline/sources.h"
 #include "session/act_command.h"
+#include "session/measured_contours.h"
 
 namespace glisson::session {
 
 namespace {
 
 constexpr int measureEvery_ms = 16;
+constexpr int autosaveEvery_ms = 30000;
 
 QString plural(std::size_t n, const QString& one, const QString& many) {
   return n == 1 ? one : many.arg(static_cast<qulonglong>(n));
@@ -28,6 +31,13 @@ Session::Session(QObject* parent) : QObject(parent), tool_(contours_) {
   connect(&measureTimer_, &QTimer::timeout, this, &Session::measure);
   connect(&worker_, &Worker::progressed, this, &Session::progressed);
   workFolder_ = QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/current-case");
+  journalFolder_ = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + QStringLiteral("/journals");
+  autosave_.setInterval(autosaveEvery_ms);
+  connect(&autosave_, &QTimer::timeout, this, [this] {
+    if (lock_) lock_->touch();
+    if (modified_ && !caseFolder_.isEmpty()) saveInBackground();
+  });
+  autosave_.start();
 }
 
 Session::~Session() = default;
@@ -61,6 +71,7 @@ void Session::apply(const tools::Acts& acts) {
 
 void Session::toolMoved() {
   if (!tool_.message().empty()) emit message(QString::fromStdString(tool_.message()));
+  if (!tool_.dragging() && tool_.drawing().cols() != journalledVertices_) journal();
   const bool atWork = tool_.drawing().cols() >= 3 || tool_.preview().cols() > 0;
   if (atWork && !measureTimer_.isActive()) measureTimer_.start();
   emit toolChanged();
@@ -69,6 +80,7 @@ void Session::toolMoved() {
 void Session::contoursTouched() {
   ++revision_;
   modified_ = true;
+  journal();
   failure_[static_cast<std::size_t>(Step::Segment)].clear();
   if (!measureTimer_.isActive()) measureTimer_.start();
   if (!tool_.message().empty()) emit message(QString::fromStdString(tool_.message()));
@@ -82,9 +94,10 @@ void Session::undo() {
     toolMoved();
     return;
   }
-  if (const auto where = undo_.undo(contours_)) {
+  if (const auto where = undo_.whereUndo()) {
+    emit pointWanted(*where);  // first the slice it concerns, then the act
+    undo_.undo(contours_);
     tool_.contoursChanged();
-    emit pointWanted(*where);
     contoursTouched();
   }
 }
@@ -94,9 +107,10 @@ void Session::redo() {
     toolMoved();
     return;
   }
-  if (const auto where = undo_.redo(contours_)) {
-    tool_.contoursChanged();
+  if (const auto where = undo_.whereRedo()) {
     emit pointWanted(*where);
+    undo_.redo(contours_);
+    tool_.contoursChanged();
     contoursTouched();
   }
 }
@@ -181,7 +195,7 @@ void Session::measure() {
     measureAgain_ = true;
     return;
   }
-  roi::ContourStack counted = contours_;
+  commands::Outlines counted = contours_;
   if (tool_.preview().cols() > 0 && tool_.selected())
     counted.polygons[*tool_.selected()].points_lps_mm = tool_.preview();
   if (tool_.drawing().cols() >= 3) {
@@ -200,30 +214,41 @@ void Session::measure() {
     emit statisticsChanged();
     return;
   }
-  auto now = std::make_shared<LiveStatistics>();
+  struct Measured {
+    LiveStatistics live;
+    std::shared_ptr<const image::Mask> inner;
+  };
+  auto now = std::make_shared<Measured>();
   measurer_.start(
-      [now, counted = std::move(counted), images = images_, plane = plane_](const Progress&) {
+      [now, counted = measuredContours(counted, images_.mri->grid, images_.stiffness->values_kPa.grid),
+       images = images_, plane = plane_, settings = measure_](const Progress&) {
         const image::Grid& grid = images.stiffness->values_kPa.grid;
+        LiveStatistics& live = now->live;
         try {
           pipeline::LoadedRoi roi;
           roi.contours = counted;
           // As a run and the command line measure: empty slices between outlines are interpolated.
           const elastography::MappedRoi mapped = pipeline::mapRoi(roi, images.mri->grid, *images.stiffness);
-          now->pooled = elastography::measure(*images.stiffness, mapped.mask);
+          elastography::MeasureOptions options;
+          options.erosion_pixels = settings.innerRoi ? settings.erosion_pixels : 0;
+          if (settings.innerRoi)
+            now->inner = std::make_shared<image::Mask>(image::erodeInPlane(mapped.mask, settings.erosion_pixels));
+          live.pooled = elastography::measure(*images.stiffness, mapped.mask, options);
         } catch (const Error& nothing) {
-          now->reason = QString::fromUtf8(nothing.what());
+          live.reason = QString::fromUtf8(nothing.what());
           return;
         }
         if (!plane) return;
         const Eigen::Vector3d centre =
             plane->grid.indexToLps({0.5 * plane->grid.size.x(), 0.5 * plane->grid.size.y(), 1.0 * plane->slice});
         const auto k = static_cast<int>(std::lround(grid.lpsToIndex(centre).z()));
-        for (const elastography::SliceStatistics& s : now->pooled->slices)
-          if (s.slice == k) now->slice = s.statistics;
+        for (const elastography::SliceStatistics& s : live.pooled->slices)
+          if (s.slice == k) live.slice = s.statistics;
       },
       [this, now](std::exception_ptr failure) {
-        if (failure) now->reason = reasonOf(failure);
-        statistics_ = *now;
+        if (failure) now->live.reason = reasonOf(failure);
+        statistics_ = now->live;
+        inner_ = now->inner;
         emit statisticsChanged();
         if (std::exchange(measureAgain_, false)) measure();
       });

@@ -18,7 +18,10 @@
 #include "pipeline/run.h"
 #include "pipeline/scene.h"
 #include "roi/contour_stack.h"
+#include "session/case_file.h"
+#include "session/case_lock.h"
 #include "session/interpolated_slices.h"
+#include "session/journal.h"
 #include "session/parameters.h"
 #include "session/step.h"
 #include "session/worker.h"
@@ -30,7 +33,10 @@ namespace glisson::session {
 struct OpenImages {
   std::shared_ptr<const image::ScalarVolume> mri;
   std::shared_ptr<const elastography::StiffnessMap> stiffness;
+  std::shared_ptr<const image::ScalarVolume> magnitude;          ///< null where there is none beside the MRI
+  std::vector<std::shared_ptr<const image::ScalarVolume>> wave;  ///< time steps, in order, on one grid
   int mriSeries = -1, stiffnessSeries = -1, confidenceSeries = -1;
+  dicom::RoleOverrides roles;  ///< set by hand; then both sources are the folder that was opened
   /// Folders in which the command line finds these very series by its own rule for roles; empty where there is none.
   std::filesystem::path mriSource, mreSource;
   QString note;  ///< what could not be read, and why
@@ -46,17 +52,17 @@ struct LiveStatistics {
 /// A case as it is written: everything by value, so that a worker can write it while the window goes on.
 struct CaseFiles {
   OpenImages images;
-  roi::ContourStack contours;
+  commands::Outlines contours;
   pipeline::Scene scene;
 };
 /// Writes contours.json and scene.json (and mri.nrrd, where no folder names the series) into the folder. Throws
 /// BadInput.
-void writeCase(CaseFiles files, const std::filesystem::path& folder);
+void writeCase(const CaseFiles& files, const std::filesystem::path& folder);
 
 /// Chooses the series by their roles and reads them. guessed: the scan before any role was corrected by hand. root: the
 /// folder that was opened. A missing elastogram is told in note; a missing MRI is a BadInput.
 OpenImages readImages(const dicom::ScanResult& scan, const dicom::ScanResult& guessed,
-                      const std::filesystem::path& root, const Progress& progress);
+                      const std::filesystem::path& root, const dicom::RoleOverrides& roles, const Progress& progress);
 
 /// The one observable model of what is open. Owned and called by one thread; all work over a few milliseconds is done
 /// by workers, whose results arrive as signals.
@@ -73,11 +79,11 @@ class Session : public QObject {
   const dicom::ScanResult& scan() const { return scan_; }
   const QString& path() const { return path_; }
   const OpenImages& images() const { return images_; }
-  /// Corrects what a series is for; the images are read again. index: of scan().series.
+  /// Corrects what a series is for; the images are read again, outlines stay. index: of scan().series.
   void setRole(int index, dicom::SeriesRole role);
 
   // Segment
-  const roi::ContourStack& contours() const { return contours_; }
+  const commands::Outlines& contours() const { return contours_; }
   tools::PolygonTool& tool() { return tool_; }
   void apply(const tools::Acts& acts);  ///< what a gesture asks, each act one undo step
   void toolMoved();                     ///< the tool's picture changed, contours did not
@@ -97,6 +103,28 @@ class Session : public QObject {
   void interpolateOutlines();
   void acceptInterpolated();  ///< all of them, one undo step
   OutlineCoverage coverage() const;
+  /// Proposes outlines: a region grown from the point by a worker, on every slice that has none; one undo step. They
+  /// look like interpolated ones until they are accepted.
+  void propose(const Eigen::Vector3d& seed_lps);
+  /// Marks the slice shown, or takes the same mark away; refused with a message where it contradicts the outlines.
+  void toggleMark(commands::SliceMark mark);
+  std::optional<commands::SliceMark> markOf(int slice) const;
+  /// The next slice after this one, around the end, that has neither an accepted outline nor a mark.
+  std::optional<int> nextPending(int after) const;
+  void rename(const QString& name);   ///< of the region; one undo step
+  void copyOutlines();                ///< the selected outline, or all of the slice shown
+  void pasteOutlines();               ///< on the slice shown, as drafts
+  void pasteBetween();                ///< on the empty slices from where they were copied to the slice shown
+  void pasteTo(int first, int last);  ///< on these slices (k), where they are empty
+  bool canPaste() const { return !clipboard_.empty(); }
+  const MeasureSettings& measureSettings() const { return measure_; }
+  void setMeasureSettings(const MeasureSettings& settings);
+  /// Border of the inner region on the elastogram, null where it is off or empty.
+  const std::shared_ptr<const image::Mask>& innerMask() const { return inner_; }
+  /// A second reader's outlines, shown beside the first's and compared with them; empty path: none. Throws BadInput.
+  void loadSecondReader(const QString& file);
+  const roi::ContourStack& secondReader() const { return second_; }
+  void compareReaders();  ///< by a worker; readersCompared tells how both agree, in words
 
   // Model, Retract, Compare
   const Parameters& parameters() const { return parameters_; }
@@ -112,8 +140,16 @@ class Session : public QObject {
   QString runFolder() const;
 
   // Case
-  /// Writes contours.json and scene.json so that `glisson-cli run scene.json` gives the same numbers. Throws BadInput.
+  /// Writes case.json, contours.json and scene.json so that `glisson-cli run scene.json` gives the same numbers.
+  /// Throws BadInput; the outlines are kept.
   void saveCase(const QString& folder);
+  void saveInBackground();                                   ///< into the folder the case is from
+  const QString& caseFolder() const { return caseFolder_; }  ///< empty while it was never saved
+  bool readOnly() const { return lock_ && !lock_->writable(); }
+  void setJournalFolder(const QString& folder) { journalFolder_ = folder; }
+  const QString& journalFolder() const { return journalFolder_; }
+  /// Opens what a journal belongs to, and puts its outlines back; the journal goes once that is done.
+  void recover(const Journalled& journalled);
   void setWorkFolder(const QString& folder);  ///< where runs write; default: a folder of the cache
 
   StepStatus status(Step step) const;
@@ -132,10 +168,30 @@ class Session : public QObject {
   void workEnded(bool well, const QString& reason);  ///< reason: empty when well or cancelled
   void runFinished();
   void message(const QString& text);
+  void readersCompared(const QString& text);
+  void saved(int version);
+  void saveFailed(const QString& reason);
 
  private:
-  enum class Work { None, Load, Run, Interpolate };
-  void startLoad(std::function<std::filesystem::path(const Progress&)> prepare, const QString& what);
+  enum class Work { None, Load, Run, Interpolate, Readers, Propose };
+  /// What is to be opened, found out by the worker.
+  struct Wanted {
+    std::filesystem::path path;
+    std::optional<CaseRecord> record;
+    std::filesystem::path caseFolder;
+    std::shared_ptr<CaseLock> lock;
+    std::optional<Journalled> journalled;
+  };
+  struct Opened;
+  void startLoad(std::function<Wanted(const Progress&)> prepare, const QString& what);
+  static Wanted wantedCase(const std::filesystem::path& path);
+  void take(Opened& opened);
+  void readAgain(const QString& what);
+  CaseRecord caseRecord(const std::filesystem::path& folder) const;
+  void journal();
+  void beginJournal();
+  Eigen::Vector3d middleOf(int slice) const;
+  void paste(const std::vector<int>& slices, roi::PolygonState state, const char* text);
   CaseFiles caseFiles(const std::filesystem::path& folder) const;
   void ended(Work work, std::exception_ptr failure);
   void measure();
@@ -148,14 +204,24 @@ class Session : public QObject {
   QString path_;
   dicom::ScanResult scan_, guessed_;
   OpenImages images_;
-  roi::ContourStack contours_;
+  commands::Outlines contours_;
+  roi::ContourStack second_;
+  std::vector<roi::Polygon> clipboard_;
+  MeasureSettings measure_;
+  std::shared_ptr<const image::Mask> inner_;
   commands::UndoStack undo_;
   tools::PolygonTool tool_;
   std::optional<tools::SlicePlane> plane_;
   LiveStatistics statistics_;
   QTimer measureTimer_;
   Parameters parameters_;
-  QString workFolder_;
+  QString workFolder_, caseFolder_, journalFolder_;
+  std::shared_ptr<CaseLock> lock_;
+  std::unique_ptr<Journal> journal_;
+  Eigen::Index journalledVertices_ = 0;  ///< of the outline in work
+  bool journalFailed_ = false;           ///< told once
+  Worker saver_;
+  QTimer autosave_;
   std::shared_ptr<const pipeline::RunResult> result_;
   std::shared_ptr<const render::RetractionScene> picture_;
   std::uint64_t revision_ = 0, resultRevision_ = 0;  ///< of everything a run depends on

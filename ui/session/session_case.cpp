@@ -1,32 +1,15 @@
 // The case on disk: contours.json, scene.json, and where the images are.
-#include <fstream>
-
 #include "base/error.h"
 #include "dicom/rtstruct.h"
 #include "elastography/roi_from_structures.h"
 #include "image/io.h"
 #include "roi/contour_io.h"
 #include "roi/polygon.h"
+#include "session/atomic_file.h"
+#include "session/measured_contours.h"
 #include "session/session.h"
 
 namespace glisson::session {
-
-namespace {
-
-void writeText(const std::filesystem::path& file, const std::string& text) {
-  std::filesystem::path beside = file;
-  beside += ".part";
-  {
-    std::ofstream out(beside, std::ios::binary);
-    out << text;
-    out.flush();
-    if (!out)
-      throw BadInput("cannot write '" + file.filename().string() + "': check the folder's rights and free space");
-  }
-  std::filesystem::rename(beside, file);
-}
-
-}  // namespace
 
 pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
   pipeline::Scene s;
@@ -62,13 +45,24 @@ CaseFiles Session::caseFiles(const std::filesystem::path& folder) const {
   return {images_, contours_, scene(folder)};
 }
 
-void writeCase(CaseFiles files, const std::filesystem::path& folder) {
+namespace {
+
+/// Roles that were set by hand, where the scene can say them.
+template <typename Geometry>
+void giveRoles(Geometry& geometry, const dicom::RoleOverrides& roles) {
+  if constexpr (requires { geometry.roles = roles; }) geometry.roles = roles;
+}
+
+/// The scene with the places of its images, which are written where no folder names them. Also the outlines as they are
+/// measured, where these are others.
+pipeline::Scene placed(const CaseFiles& files, const std::filesystem::path& folder) {
+  pipeline::Scene s = files.scene;
+  giveRoles(s.geometry, files.images.roles);
   if (!files.images.mri) throw BadInput("there is nothing to save: open images first");
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
   if (!std::filesystem::is_directory(folder))
     throw BadInput("cannot make the case folder; choose a place that can be written to");
-  pipeline::Scene& s = files.scene;
   s.geometry.mri = files.images.mriSource;
   if (s.geometry.mri.empty()) {
     s.geometry.mri = folder / "mri.nrrd";
@@ -81,15 +75,113 @@ void writeCase(CaseFiles files, const std::filesystem::path& folder) {
           "confidence into a folder of their own and open the patient again");
     s.geometry.mre = files.images.mreSource;
   }
-  roi::writeContours(folder / "contours.json", files.contours);
-  writeText(folder / "scene.json", pipeline::toJson(s));
+  const std::filesystem::path measured = folder / "contours-measured.json";
+  const bool leftOut = std::any_of(files.contours.marks.begin(), files.contours.marks.end(),
+                                   [](const auto& m) { return m.second == commands::SliceMark::NoWave; });
+  if (leftOut && files.images.stiffness)
+    writeAtomically(measured, roi::toJson(measuredContours(files.contours, files.images.mri->grid,
+                                                           files.images.stiffness->values_kPa.grid)));
+  else
+    std::filesystem::remove(measured, ignored);
+  return s;
 }
+
+}  // namespace
+
+void writeCase(const CaseFiles& files, const std::filesystem::path& folder) {
+  const pipeline::Scene s = placed(files, folder);
+  roi::writeContours(folder / "contours.json", files.contours);
+  writeAtomically(folder / "scene.json", pipeline::toJson(s));
+}
+
+CaseRecord Session::caseRecord(const std::filesystem::path& folder) const {
+  CaseRecord record;
+  record.source = path_.toStdString();
+  record.seriesUid = contours_.seriesUid;
+  record.roles = images_.roles;
+  record.outlines = contours_;
+  record.parameters = parameters_;
+  record.measure = measure_;
+  record.sceneJson = pipeline::toJson(scene(folder));  // without images yet; see saveFiles
+  return record;
+}
+
+namespace {
+
+int saveFiles(CaseRecord record, const CaseFiles& files, const std::filesystem::path& folder) {
+  record.sceneJson = pipeline::toJson(placed(files, folder));
+  return writeCaseRecord(record, folder);
+}
+
+}  // namespace
 
 void Session::saveCase(const QString& folder) {
   const std::filesystem::path target = folder.toStdString();
-  writeCase(caseFiles(target), target);
+  std::error_code ignored;
+  std::filesystem::create_directories(target, ignored);
+  if (folder != caseFolder_ || !lock_) {
+    std::shared_ptr<CaseLock> lock;
+    if (std::filesystem::is_directory(target)) lock = std::make_shared<CaseLock>(target);
+    lock_ = std::move(lock);
+  }
+  const int version = saveFiles(caseRecord(target), caseFiles(target), target);
+  caseFolder_ = folder;
   modified_ = false;
+  beginJournal();
+  emit saved(version);
   emit statusChanged();
+}
+
+void Session::saveInBackground() {
+  if (saver_.busy() || caseFolder_.isEmpty() || !images_.mri) return;
+  const std::filesystem::path target = caseFolder_.toStdString();
+  auto version = std::make_shared<int>(0);
+  saver_.start([version, target, record = caseRecord(target),
+                files = caseFiles(target)](const Progress&) { *version = saveFiles(record, files, target); },
+               [this, version, revision = revision_](std::exception_ptr failure) {
+                 if (failure) {
+                   emit saveFailed(reasonOf(failure));
+                   return;
+                 }
+                 if (revision == revision_) {
+                   modified_ = false;
+                   beginJournal();
+                 }
+                 emit saved(*version);
+                 emit statusChanged();
+               });
+}
+
+void Session::beginJournal() {
+  if (!images_.mri) return;
+  try {
+    if (!journal_) journal_ = std::make_unique<Journal>(journalFolder_.toStdString());
+    journal_->begin(path_.toStdString(),
+                    caseFolder_.isEmpty() ? std::string() : (caseFolder_ + QStringLiteral("/case.json")).toStdString(),
+                    contours_.seriesUid);
+  } catch (const Error& e) {
+    journalFailed_ = true;
+    emit message(QString::fromUtf8(e.what()));
+    return;
+  }
+  journalFailed_ = false;
+  journal();
+}
+
+void Session::journal() {
+  if (!journal_) return;
+  roi::Polygon inWork;
+  inWork.state = roi::PolygonState::Draft;
+  inWork.points_lps_mm = tool_.drawing();
+  if (plane_) inWork.sopInstanceUid = plane_->sopInstanceUid;
+  journalledVertices_ = inWork.points_lps_mm.cols();
+  try {
+    journal_->write(contours_, inWork, modified_);
+    journalFailed_ = false;
+  } catch (const Error& e) {
+    // Told once; what is not written now goes out with the next gesture.
+    if (!std::exchange(journalFailed_, true)) emit message(QString::fromUtf8(e.what()));
+  }
 }
 
 void Session::importContours(const QString& file) {

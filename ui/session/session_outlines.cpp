@@ -2,6 +2,8 @@
 #include "base/error.h"
 #include "commands/replace_contours.h"
 #include "roi/interpolate.h"
+#include "roi/polygon.h"
+#include "roi/propose.h"
 #include "session/session.h"
 
 namespace glisson::session {
@@ -46,6 +48,50 @@ void Session::interpolateOutlines() {
                 .arg(now.drawn.size()));
       });
   emit workStarted(tr("Interpolating"));
+  emit statusChanged();
+}
+
+void Session::propose(const Eigen::Vector3d& seed_lps) {
+  if (worker_.busy() || !images_.mri) {
+    if (worker_.busy()) emit message(tr("Still at work; cancel it first."));
+    return;
+  }
+  if (plane_) apply(tool_.leaveSlice(*plane_));
+  constexpr double smooth = 0.6;  // of a pixel: steps of voxels become lines
+  auto full = std::make_shared<roi::ContourStack>(contours_);
+  auto leaked = std::make_shared<bool>(false);
+  const std::uint64_t revision = revision_;
+  work_ = Work::Propose;
+  worker_.start(
+      [full, leaked, seed_lps, mri = images_.mri,
+       sops = scan_.series[static_cast<std::size_t>(images_.mriSeries)].sopInstanceUids](const Progress& progress) {
+        const roi::Proposal proposal = roi::propose(*mri, seed_lps, {}, progress);
+        *leaked = proposal.touchesBorder;
+        const std::set<int> drawn = coverageOf(*full, mri->grid).drawn;
+        std::erase_if(full->polygons, [](const auto& p) { return p.state == roi::PolygonState::Interpolated; });
+        for (roi::Polygon& p : roi::contoursOf(proposal.mask).polygons) {
+          const int k = tools::sliceOf(p, mri->grid);
+          if (drawn.contains(k)) continue;
+          roi::Polygon line = roi::simplified(p, smooth * mri->grid.spacing_mm.head<2>().minCoeff());
+          if (roi::refusal(line, mri->grid)) continue;
+          line.state = roi::PolygonState::Interpolated;
+          if (k >= 0 && static_cast<std::size_t>(k) < sops.size())
+            line.sopInstanceUid = sops[static_cast<std::size_t>(k)];
+          full->polygons.push_back(std::move(line));
+        }
+      },
+      [this, full, leaked, revision](std::exception_ptr failure) {
+        ended(Work::Propose, failure);
+        if (failure) return;
+        if (revision != revision_) {
+          emit message(tr("The outlines changed meanwhile; propose again."));
+          return;
+        }
+        replaceContours(std::move(*full), "propose outlines");
+        emit message(*leaked ? tr("Proposed, but it reaches the border of the image: it may have leaked. Correct it.")
+                             : tr("Proposed on every slice. Correct and accept; nothing is decided yet."));
+      });
+  emit workStarted(tr("Proposing outlines"));
   emit statusChanged();
 }
 

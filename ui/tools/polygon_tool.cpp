@@ -5,18 +5,11 @@
 #include <utility>
 
 #include "tools/outline.h"
+#include "tools/reshape.h"
 
 namespace glisson::tools {
 
 namespace {
-
-Eigen::Matrix3Xd withPoint(const Eigen::Matrix3Xd& points, Eigen::Index at, const Eigen::Vector3d& p) {
-  Eigen::Matrix3Xd longer(3, points.cols() + 1);
-  longer.leftCols(at) = points.leftCols(at);
-  longer.col(at) = p;
-  longer.rightCols(points.cols() - at) = points.rightCols(points.cols() - at);
-  return longer;
-}
 
 std::vector<Eigen::Index> allOf(const Eigen::Matrix3Xd& points) {
   std::vector<Eigen::Index> all(static_cast<std::size_t>(points.cols()));
@@ -50,54 +43,24 @@ Acts PolygonTool::press(const Pointer& at, const SlicePlane& plane) {
 Acts PolygonTool::move(const Pointer& at, const SlicePlane& plane) {
   pointer_ = snapped(at, plane);
   const bool drawing = state() == ToolState::Drawing;
-  closes_ = drawing && onFirstVertex(at.px, plane);
-  hover_ = drawing || drag_ == Drag::Freehand ? std::nullopt : hitTest(at.px, plane);
-
-  if (drag_ == Drag::Press && (at.px - pressed_px_).norm() > reach::drag_px) {
-    const bool handle = pressedHit_ && pressedHit_->kind != Hit::Kind::Inside;
-    const bool ownInside = pressedHit_ && selected_ && pressedHit_->polygon == *selected_;
-    if (drawing || (!handle && !selected_)) {
-      drag_ = Drag::Freehand;
-      past_.push_back(points_);
-      future_.clear();
-      freehandStart_ = points_.cols();
-      if (!drawing) {
-        points_.resize(3, 1);
-        points_.col(0) = plane.toLps(pressed_px_);
-        lastFreehand_px_ = pressed_px_;
-      } else {
-        lastFreehand_px_ = plane.toPixel(points_.col(points_.cols() - 1));
-      }
-    } else if ((handle || ownInside) && !pressedModifiers_.ctrl && !pressedModifiers_.shift) {
-      drag_ = Drag::Move;
-      const std::size_t polygon = pressedHit_->polygon;
-      const Eigen::Matrix3Xd& points = contours_.polygons[polygon].points_lps_mm;
-      const bool sameSelection = selected_ == polygon && pressedHit_->kind == Hit::Kind::Vertex &&
-                                 std::find(vertices_.begin(), vertices_.end(), pressedHit_->vertex) != vertices_.end();
-      if (pressedHit_->kind == Hit::Kind::Inside) {
-        select(polygon, allOf(points));
-      } else if (!sameSelection) {
-        std::vector<Eigen::Index> grabbed{pressedHit_->vertex};
-        if (pressedHit_->kind == Hit::Kind::Edge) grabbed.push_back((pressedHit_->vertex + 1) % points.cols());
-        select(polygon, grabbed);
-      }
-    } else if (selected_) {
-      drag_ = Drag::Box;
-    }
-  }
+  closes_ = drawing && onFirstVertex(at, plane);
+  hover_ = drawing || drag_ == Drag::Freehand || mode_ == ToolMode::Sculpt ? std::nullopt : hitTest(at.px, plane);
+  if (drag_ == Drag::Press && ((at.px - pressed_px_).norm() > reach::drag_px || mode_ == ToolMode::Sculpt))
+    beginDrag(plane);
 
   if (drag_ == Drag::Freehand) {
     const Eigen::Vector2d way = at.px - lastFreehand_px_;
     // Evenly spaced even where the mouse reports seldom.
-    const int steps = static_cast<int>(way.norm() / reach::freehand_px);
-    for (int s = 1; s <= steps; ++s)
-      addVertex(plane.toLps(lastFreehand_px_ + way.normalized() * (reach::freehand_px * s)));
-    if (steps > 0) lastFreehand_px_ += way.normalized() * (reach::freehand_px * steps);
-    closes_ = onFirstVertex(at.px, plane);
+    const int steps = static_cast<int>(way.norm() / freehand_px_);
+    for (int s = 1; s <= steps; ++s) addVertex(plane.toLps(lastFreehand_px_ + way.normalized() * (freehand_px_ * s)));
+    if (steps > 0) lastFreehand_px_ += way.normalized() * (freehand_px_ * steps);
+    closes_ = onFirstVertex(at, plane);
   } else if (drag_ == Drag::Move) {
     const Eigen::Vector3d shift = plane.toLps(at.px) - plane.toLps(pressed_px_);
     preview_ = contours_.polygons[*selected_].points_lps_mm;
     for (const Eigen::Index v : vertices_) preview_.col(v) += shift;
+  } else if (drag_ == Drag::Sculpt) {
+    sculptTo(at.px, plane);
   } else if (drag_ == Drag::Box) {
     box_ = Box{pressed_px_, at.px};
   }
@@ -105,21 +68,70 @@ Acts PolygonTool::move(const Pointer& at, const SlicePlane& plane) {
   return {};
 }
 
+void PolygonTool::beginDrag(const SlicePlane& plane) {
+  if (mode_ == ToolMode::Sculpt) {
+    beginSculpt(plane);
+    return;
+  }
+  const bool drawing = state() == ToolState::Drawing;
+  const bool handle = pressedHit_ && pressedHit_->kind != Hit::Kind::Inside;
+  const bool ownInside = pressedHit_ && selected_ && pressedHit_->polygon == *selected_;
+  if (drawing || mode_ == ToolMode::Freehand || (!handle && !selected_)) {
+    drag_ = Drag::Freehand;
+    select(std::nullopt);
+    past_.push_back(points_);
+    future_.clear();
+    freehandStart_ = points_.cols();
+    if (!drawing) {
+      points_.resize(3, 1);
+      points_.col(0) = plane.toLps(pressed_px_);
+      lastFreehand_px_ = pressed_px_;
+    } else {
+      lastFreehand_px_ = plane.toPixel(points_.col(points_.cols() - 1));
+    }
+  } else if ((handle || ownInside) && !pressedModifiers_.ctrl && !pressedModifiers_.shift) {
+    drag_ = Drag::Move;
+    const std::size_t polygon = pressedHit_->polygon;
+    const Eigen::Matrix3Xd& points = contours_.polygons[polygon].points_lps_mm;
+    const bool sameSelection = selected_ == polygon && pressedHit_->kind == Hit::Kind::Vertex &&
+                               std::find(vertices_.begin(), vertices_.end(), pressedHit_->vertex) != vertices_.end();
+    if (pressedHit_->kind == Hit::Kind::Inside) {
+      select(polygon, allOf(points));
+    } else if (!sameSelection) {
+      std::vector<Eigen::Index> grabbed{pressedHit_->vertex};
+      if (pressedHit_->kind == Hit::Kind::Edge) grabbed.push_back((pressedHit_->vertex + 1) % points.cols());
+      select(polygon, grabbed);
+    }
+  } else if (selected_) {
+    drag_ = Drag::Box;
+  }
+}
+
 Acts PolygonTool::release(const Pointer& at, const SlicePlane& plane) {
   const Drag was = std::exchange(drag_, Drag::None);
-  Acts acts;
-  if (was == Drag::Press) {
-    acts = click(at, plane);
-  } else if (was == Drag::Freehand) {
-    const bool closing = onFirstVertex(at.px, plane);
+  Acts acts = was == Drag::Press && mode_ != ToolMode::Sculpt ? click(at, plane) : endDrag(was, at, plane);
+  box_.reset();
+  updateCrossing(plane);
+  return acts;
+}
+
+Acts PolygonTool::endDrag(Drag was, const Pointer& at, const SlicePlane& plane) {
+  if (was == Drag::Freehand) {
+    const bool closing = onFirstVertex(at, plane);
     if (!closing) addVertex(plane.toLps(at.px));
     endFreehand(plane);
-    if (closing) acts = close(plane, false);
-  } else if (was == Drag::Move) {
-    if (preview_.cols() > 0) acts.push_back(ChangePoints{*selected_, preview_, PointsChange::Move});
+    return closing || mode_ == ToolMode::Freehand ? close(plane, false) : Acts{};
+  }
+  if (was == Drag::Move || was == Drag::Sculpt) {
+    Acts acts;
+    const bool sculpted = was == Drag::Sculpt;
+    if (preview_.cols() > 0 && !(sculpted && preview_ == contours_.polygons[*selected_].points_lps_mm))
+      acts.push_back(ChangePoints{*selected_, preview_, sculpted ? PointsChange::Sculpt : PointsChange::Move});
     preview_.resize(3, 0);
     asked_ = false;
-  } else if (was == Drag::Box && selected_ && box_) {
+    return acts;
+  }
+  if (was == Drag::Box && selected_ && box_) {
     const Eigen::Array2d low = box_->from_px.cwiseMin(box_->to_px).array();
     const Eigen::Array2d high = box_->from_px.cwiseMax(box_->to_px).array();
     const Eigen::Matrix3Xd& points = contours_.polygons[*selected_].points_lps_mm;
@@ -131,161 +143,50 @@ Acts PolygonTool::release(const Pointer& at, const SlicePlane& plane) {
     }
     vertices_ = caught;
   }
-  box_.reset();
-  updateCrossing(plane);
-  return acts;
-}
-
-Acts PolygonTool::click(const Pointer& at, const SlicePlane& plane) {
-  if (state() == ToolState::Drawing) {
-    if (onFirstVertex(at.px, plane)) return close(plane, false);
-    past_.push_back(points_);
-    future_.clear();
-    addVertex(snapped(at, plane));
-    return {};
-  }
-  const bool onHandle = pressedHit_ && pressedHit_->kind != Hit::Kind::Inside;
-  if (at.modifiers.ctrl && onHandle) {
-    const std::size_t index = pressedHit_->polygon;
-    const Eigen::Matrix3Xd& points = contours_.polygons[index].points_lps_mm;
-    if (pressedHit_->kind == Hit::Kind::Edge) {
-      select(index, {pressedHit_->vertex + 1});
-      return {
-          ChangePoints{index, withPoint(points, pressedHit_->vertex + 1, plane.toLps(at.px)), PointsChange::Insert}};
-    }
-    select(index, {pressedHit_->vertex});
-    return removeSelection();
-  }
-  if (onHandle) {
-    const Eigen::Index n = contours_.polygons[pressedHit_->polygon].points_lps_mm.cols();
-    std::vector<Eigen::Index> clicked{pressedHit_->vertex};
-    if (pressedHit_->kind == Hit::Kind::Edge) clicked.push_back((pressedHit_->vertex + 1) % n);
-    if (at.modifiers.shift && selected_ == pressedHit_->polygon) {
-      for (const Eigen::Index v : clicked) {
-        const auto found = std::find(vertices_.begin(), vertices_.end(), v);
-        if (found == vertices_.end())
-          vertices_.push_back(v);
-        else
-          vertices_.erase(found);
-      }
-    } else {
-      select(pressedHit_->polygon, clicked);
-    }
-    return {};
-  }
-  const bool insideAny = pressedHit_.has_value();
-  if (selected_ && !(at.modifiers.shift && insideAny)) {
-    if (insideAny)
-      select(pressedHit_->polygon, allOf(contours_.polygons[pressedHit_->polygon].points_lps_mm));
-    else
-      select(std::nullopt);
-    return {};
-  }
-  // Idle, or Shift inside a region: the first vertex (of a hole, by the even-odd rule, where it lies inside a region).
-  select(std::nullopt);
-  past_.push_back(points_);
-  future_.clear();
-  addVertex(plane.toLps(at.px));
-  if (insideAny)
-    message_ = contours_.polygons[pressedHit_->polygon].state == roi::PolygonState::Interpolated
-                   ? "Once accepted, this outline replaces the interpolated ones of the slice."
-                   : "An outline inside a region becomes a hole.";
   return {};
 }
 
-Acts PolygonTool::doubleClick(const Pointer& at, const SlicePlane& plane) {
-  // The press and release before it were clicks already: in Drawing they added the last vertex.
-  if (state() == ToolState::Drawing) {
-    if (points_.cols() < 3) return {};
-    return close(plane, false);
+void PolygonTool::beginSculpt(const SlicePlane& plane) {
+  const std::optional<std::size_t> target =
+      selected_ && *selected_ < contours_.polygons.size() ? selected_ : nearestPolygon(pressed_px_, plane);
+  if (!target) {
+    message_ = "There is no outline on this slice to sculpt.";
+    drag_ = Drag::None;
+    return;
   }
-  const std::optional<Hit> hit = hitTest(at.px, plane);
-  if (state() == ToolState::Editing && hit && hit->polygon == *selected_) return accept(plane);
-  return {};
+  select(*target);
+  drag_ = Drag::Sculpt;
+  preview_ = contours_.polygons[*target].points_lps_mm;
+  lastFreehand_px_ = pressed_px_;
+  sculptTo(pressed_px_, plane);
 }
 
-Acts PolygonTool::rightClick(const Pointer&, const SlicePlane& plane) {
-  message_.clear();
-  return state() == ToolState::Drawing ? close(plane, false) : Acts{};
-}
-
-Acts PolygonTool::key(ToolKey key, const SlicePlane& plane) {
-  message_.clear();
-  const ToolState now = state();
-  switch (key) {
-    case ToolKey::Enter:
-      if (now == ToolState::Drawing) return close(plane, false);
-      if (now == ToolState::Editing) return accept(plane);
-      return {};
-    case ToolKey::CtrlEnter:
-      if (now == ToolState::Drawing) return close(plane, true);
-      if (now == ToolState::Editing) return accept(plane);
-      return {};
-    case ToolKey::Backspace:
-      if (now == ToolState::Drawing) {
-        past_.push_back(points_);
-        future_.clear();
-        points_.conservativeResize(3, points_.cols() - 1);
-        if (points_.cols() == 0) clearDrawing();
-        updateCrossing(plane);
-      } else if (now == ToolState::Editing && !interpolated()) {
-        // Takes a draft up again where it was left.
-        const std::size_t index = *selected_;
-        select(std::nullopt);
-        points_ = contours_.polygons[index].points_lps_mm;
-        return {RemovePolygon{index}};
-      }
-      return {};
-    case ToolKey::Delete:
-      return now == ToolState::Drawing ? Acts{} : removeSelection();
-    case ToolKey::Escape:
-      if (now == ToolState::Drawing) {
-        Acts parked = leaveSlice(plane);
-        selected_ = contours_.polygons.size();  // the draft, once it is added: a second Esc discards it
-        return parked;
-      }
-      if (now == ToolState::Editing && !interpolated()) {
-        const std::size_t index = *selected_;
-        select(std::nullopt);
-        message_ = "Draft discarded; undo brings it back.";
-        return {RemovePolygon{index}};
-      }
-      select(std::nullopt);
-      return {};
+// The disc goes along the way of the mouse in steps of a third of its radius, so that nothing slips through.
+void PolygonTool::sculptTo(const Eigen::Vector2d& px, const SlicePlane& plane) {
+  const double perPixel_mm = 1.0 / plane.scale_px_mm.cwiseAbs().mean();
+  const double radius_mm = brush_px_ * perPixel_mm;
+  const double step_mm =
+      std::max(radius_mm / 4.0, std::min(0.5 * plane.grid.spacing_mm.head<2>().minCoeff(), radius_mm));
+  const Eigen::Vector2d way = px - lastFreehand_px_;
+  const int steps = std::max(1, static_cast<int>(std::ceil(way.norm() / (brush_px_ / 3.0))));
+  const Outline before = planePoints(preview_, plane);
+  Outline flat = before;
+  for (int s = 1; s <= steps; ++s) {
+    const Eigen::Vector2d at = lastFreehand_px_ + way * (static_cast<double>(s) / steps);
+    flat = pushed(flat, plane.toPlane_mm(plane.toLps(at)), radius_mm, step_mm);
   }
-  return {};
-}
-
-Acts PolygonTool::leaveSlice(const SlicePlane& plane) {
-  Acts acts;
-  if (points_.cols() > 0) {
-    acts.push_back(AddPolygon{polygonOf(plane, roi::PolygonState::Draft)});
-    message_ = "Outline parked as a draft; click it to go on, Esc to discard.";
-  }
-  drag_ = Drag::None;
-  box_.reset();
-  preview_.resize(3, 0);
-  hover_.reset();
-  select(std::nullopt);
-  clearDrawing();
-  return acts;
-}
-
-bool PolygonTool::undoDrawing() {
-  if (state() != ToolState::Drawing || past_.empty()) return false;
-  future_.push_back(points_);
-  points_ = past_.back();
-  past_.pop_back();
-  crosses_ = false;
-  return true;
-}
-
-bool PolygonTool::redoDrawing() {
-  if (future_.empty()) return false;
-  past_.push_back(points_);
-  points_ = future_.back();
-  future_.pop_back();
-  return true;
+  lastFreehand_px_ = px;
+  if (flat.cols() < 3 || flat == before) return;
+  Eigen::Matrix3Xd points = plane.fromPlane(flat);
+  // Vertices out of reach keep their bits: they do not go through the plane and back.
+  for (Eigen::Index i = 0, j = 0; i < flat.cols(); ++i)
+    for (Eigen::Index k = j; k < before.cols(); ++k)
+      if (flat.col(i) == before.col(k)) {
+        points.col(i) = preview_.col(k);
+        j = k + 1;
+        break;
+      }
+  preview_ = std::move(points);
 }
 
 void PolygonTool::contoursChanged() {

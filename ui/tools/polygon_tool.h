@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -13,12 +14,14 @@ namespace glisson::tools {
 
 /// Distances of the polygon tool, logical pixels.
 namespace reach {
-inline constexpr double close_px = 10.0;    ///< click on the first vertex closes
-inline constexpr double hit_px = 6.0;       ///< vertex or edge under the mouse; a vertex wins
-inline constexpr double drag_px = 3.0;      ///< less is a click
-inline constexpr double freehand_px = 8.0;  ///< spacing of freehand points
-inline constexpr double simplify = 0.25;    ///< of a pixel spacing: freehand tolerance
-inline constexpr int minimumVoxels = 4;     ///< a smaller region is refused
+inline constexpr double close_px = 10.0;       ///< click on the first vertex closes
+inline constexpr double closeTouch_px = 36.0;  ///< the same for a finger
+inline constexpr double hit_px = 6.0;          ///< vertex or edge under the mouse; a vertex wins
+inline constexpr double drag_px = 3.0;         ///< less is a click
+inline constexpr double freehand_px = 8.0;     ///< spacing of freehand points, where nobody chose another (1–100)
+inline constexpr double brush_px = 26.0;       ///< radius of the sculpting disc, where nobody chose another (4–200)
+inline constexpr double simplify = 0.25;       ///< of a pixel spacing: freehand tolerance
+inline constexpr int minimumVoxels = 4;        ///< a smaller region is refused
 }  // namespace reach
 
 /// Where the tool stands. Editing: a closed outline that is not accepted yet is selected. Accepted: an accepted one is.
@@ -28,10 +31,14 @@ struct Modifiers {
   bool shift = false, ctrl = false;
 };
 
+/// What the left button does. Freehand: a drag always draws, and letting go closes. Sculpt: a disc pushes the outline.
+enum class ToolMode { Polygon, Freehand, Sculpt };
+
 /// A mouse position of the view.
 struct Pointer {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();  ///< logical pixels
   Modifiers modifiers;
+  bool touch = false;  ///< a finger: reaches are larger
 };
 
 enum class ToolKey { Enter, CtrlEnter, Backspace, Delete, Escape };
@@ -44,7 +51,7 @@ struct AddPolygon {
 struct RemovePolygon {
   std::size_t index;
 };
-enum class PointsChange { Move, Insert, Delete };
+enum class PointsChange { Move, Insert, Delete, Sculpt, Nudge };
 struct ChangePoints {
   std::size_t index;
   Eigen::Matrix3Xd points_lps_mm;
@@ -54,7 +61,16 @@ struct ChangeState {
   std::size_t index;
   roi::PolygonState state;
 };
-using Act = std::variant<AddPolygon, RemovePolygon, ChangePoints, ChangeState>;
+struct ChangeKind {
+  std::size_t index;
+  bool exclude;
+};
+/// One polygon gives way to parts of it: the first takes its place, the others come last.
+struct ReplacePolygon {
+  std::size_t index;
+  std::vector<roi::Polygon> parts;
+};
+using Act = std::variant<AddPolygon, RemovePolygon, ChangePoints, ChangeState, ChangeKind, ReplacePolygon>;
 using Acts = std::vector<Act>;
 
 /// What is under the mouse: a vertex, an edge (from vertex to vertex + 1), or the inside of a polygon.
@@ -76,10 +92,28 @@ class PolygonTool {
   Acts move(const Pointer& at, const SlicePlane& plane);     ///< with or without the left button
   Acts release(const Pointer& at, const SlicePlane& plane);  ///< left button
   Acts doubleClick(const Pointer& at, const SlicePlane& plane);
+  /// Drawing: closes. Else what is under the mouse is selected, for the menu that follows.
   Acts rightClick(const Pointer& at, const SlicePlane& plane);
   Acts key(ToolKey key, const SlicePlane& plane);
   /// Before another slice, series or tool is shown: parks an unfinished outline as a draft.
   Acts leaveSlice(const SlicePlane& plane);
+  /// Another tool: parks an unfinished outline as a draft.
+  Acts setMode(ToolMode mode, const SlicePlane& plane);
+  ToolMode mode() const { return mode_; }
+  void setFreehandSpacing(double px);
+  double freehandSpacing() const { return freehand_px_; }
+  void setBrushRadius(double px);
+  double brushRadius() const { return brush_px_; }
+
+  // Acts on the selection; nothing where nothing is selected, with the reason as the message.
+  Acts nudge(const Eigen::Vector2d& pixels, const SlicePlane& plane);  ///< image pixels to the right and down the view
+  Acts split();  ///< two vertices apart: cuts the outline in two there; else halves the selected edges
+  Acts trim();   ///< two vertices apart: cuts the smaller part off; else every second selected vertex goes
+  Acts setKind(bool exclude);
+  void selectAll(const SlicePlane& plane);  ///< the selected outline as a whole, else the nearest of the slice
+  void deselect() { select(std::nullopt); }
+  /// Whole gestures that ended in a wish for the properties of an outline; asked once.
+  std::optional<std::size_t> takePropertiesWish() { return std::exchange(properties_, std::nullopt); }
   /// Undo and redo while drawing: whole gestures of the outline in work. False where there is nothing of it to undo.
   bool undoDrawing();
   bool redoDrawing();
@@ -104,14 +138,23 @@ class PolygonTool {
     Eigen::Vector2d from_px, to_px;
   };
   std::optional<Box> box() const { return box_; }
+  /// Centre of the sculpting disc, LPS mm, while the mouse is over the view in this mode.
+  std::optional<Eigen::Vector3d> brush() const { return mode_ == ToolMode::Sculpt ? pointer_ : std::nullopt; }
+  bool dragging() const { return drag_ != Drag::None && drag_ != Drag::Press; }
   /// One sentence for the status line: a refusal, a question, a hint. Empty where there is nothing to say.
   const std::string& message() const { return message_; }
 
  private:
-  enum class Drag { None, Press, Freehand, Move, Box };
+  enum class Drag { None, Press, Freehand, Move, Box, Sculpt };
 
   std::optional<Hit> hitTest(const Eigen::Vector2d& px, const SlicePlane& plane) const;
-  bool onFirstVertex(const Eigen::Vector2d& px, const SlicePlane& plane) const;
+  bool onFirstVertex(const Pointer& at, const SlicePlane& plane) const;
+  void beginDrag(const SlicePlane& plane);
+  void beginSculpt(const SlicePlane& plane);
+  void sculptTo(const Eigen::Vector2d& px, const SlicePlane& plane);
+  std::optional<std::size_t> nearestPolygon(const Eigen::Vector2d& px, const SlicePlane& plane) const;
+  Acts endDrag(Drag was, const Pointer& at, const SlicePlane& plane);
+  Acts clickHandle(const Pointer& at, const SlicePlane& plane);
   Eigen::Vector3d snapped(const Pointer& at, const SlicePlane& plane) const;
   void addVertex(const Eigen::Vector3d& p_lps);
   void endFreehand(const SlicePlane& plane);
@@ -144,6 +187,9 @@ class PolygonTool {
   Modifiers pressedModifiers_;
   std::optional<Hit> pressedHit_;
   Eigen::Index freehandStart_ = 0;
+  ToolMode mode_ = ToolMode::Polygon;
+  double freehand_px_ = reach::freehand_px, brush_px_ = reach::brush_px;
+  std::optional<std::size_t> properties_;
 };
 
 }  // namespace glisson::tools

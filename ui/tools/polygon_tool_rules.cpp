@@ -32,8 +32,25 @@ std::optional<Hit> PolygonTool::hitTest(const Eigen::Vector2d& px, const SlicePl
   return edge ? edge : inner;
 }
 
-bool PolygonTool::onFirstVertex(const Eigen::Vector2d& px, const SlicePlane& plane) const {
-  return points_.cols() >= 3 && (plane.toPixel(points_.col(0)) - px).norm() <= reach::close_px;
+bool PolygonTool::onFirstVertex(const Pointer& at, const SlicePlane& plane) const {
+  const double reach_px = at.touch ? reach::closeTouch_px : reach::close_px;
+  return points_.cols() >= 3 && (plane.toPixel(points_.col(0)) - at.px).norm() <= reach_px;
+}
+
+std::optional<std::size_t> PolygonTool::nearestPolygon(const Eigen::Vector2d& px, const SlicePlane& plane) const {
+  std::optional<std::size_t> nearest;
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t p = 0; p < contours_.polygons.size(); ++p) {
+    const roi::Polygon& polygon = contours_.polygons[p];
+    if (!plane.holds(polygon)) continue;
+    const Eigen::Index n = polygon.points_lps_mm.cols();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double d = distanceToSegment(px, plane.toPixel(polygon.points_lps_mm.col(i)),
+                                         plane.toPixel(polygon.points_lps_mm.col((i + 1) % n)));
+      if (d < least) least = d, nearest = p;
+    }
+  }
+  return nearest;
 }
 
 Eigen::Vector3d PolygonTool::snapped(const Pointer& at, const SlicePlane& plane) const {

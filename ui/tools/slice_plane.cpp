@@ -17,6 +17,14 @@ Eigen::Vector3d SlicePlane::toLps(const Eigen::Vector2d& p_px) const {
   return grid.origin_lps_mm + grid.direction * Eigen::Vector3d(plane_mm.x(), plane_mm.y(), grid.spacing_mm.z() * slice);
 }
 
+Eigen::Matrix3Xd SlicePlane::fromPlane(const Eigen::Matrix2Xd& plane_mm) const {
+  Eigen::Matrix3Xd points(3, plane_mm.cols());
+  for (Eigen::Index i = 0; i < plane_mm.cols(); ++i)
+    points.col(i) = grid.origin_lps_mm +
+                    grid.direction * Eigen::Vector3d(plane_mm(0, i), plane_mm(1, i), grid.spacing_mm.z() * slice);
+  return points;
+}
+
 bool SlicePlane::holds(const roi::Polygon& polygon) const {
   return polygon.points_lps_mm.cols() > 0 && sliceOf(polygon, grid) == slice;
 }

@@ -21,6 +21,8 @@ struct SlicePlane {
 
   /// In-plane coordinates (mm along i and j from voxel (0, 0)), for geometry that must not depend on the zoom.
   Eigen::Vector2d toPlane_mm(const Eigen::Vector3d& p_lps) const;
+  /// The reverse, for points (2 × n) exactly in the plane of the slice.
+  Eigen::Matrix3Xd fromPlane(const Eigen::Matrix2Xd& plane_mm) const;
 
   /// Whether the polygon belongs to this slice: its plane is nearer to it than to any other slice of the grid.
   bool holds(const roi::Polygon& polygon) const;

@@ -43,6 +43,20 @@ const std::array<QRgb, 256>& stiffnessColours() {
   return colours;
 }
 
+const std::array<QRgb, 256>& waveColours() {
+  static const std::array<QRgb, 256> colours = [] {
+    std::array<QRgb, 256> c{};
+    for (int i = 0; i < 256; ++i) {
+      const double t = (i - 127.5) / 127.5, away = std::abs(t);
+      const auto fade = [&](int end) { return static_cast<int>(std::lround(240.0 + away * (end - 240.0))); };
+      c[static_cast<std::size_t>(i)] =
+          t < 0.0 ? qRgb(fade(28), fade(70), fade(190)) : qRgb(fade(196), fade(38), fade(40));
+    }
+    return c;
+  }();
+  return colours;
+}
+
 const std::array<QRgb, 256>& greyLevels() {
   static const std::array<QRgb, 256> levels = [] {
     std::array<QRgb, 256> g{};

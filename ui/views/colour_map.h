@@ -9,6 +9,9 @@ namespace glisson::views {
 /// once, in the order radiologists know from elastograms.
 const std::array<QRgb, 256>& stiffnessColours();
 
+/// Blue below the middle, white in it, red above: for a wave around 0.
+const std::array<QRgb, 256>& waveColours();
+
 /// Grey levels.
 const std::array<QRgb, 256>& greyLevels();
 

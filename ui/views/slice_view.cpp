@@ -10,12 +10,18 @@ namespace glisson::views {
 
 namespace {
 
-tools::Pointer pointerOf(const QPointF& at, Qt::KeyboardModifiers modifiers) {
+tools::Pointer pointerOf(const QPointF& at, Qt::KeyboardModifiers modifiers, bool touch = false) {
   tools::Pointer pointer;
   pointer.px = {at.x(), at.y()};
   pointer.modifiers.shift = modifiers.testFlag(Qt::ShiftModifier);
   pointer.modifiers.ctrl = modifiers.testFlag(Qt::ControlModifier);
+  pointer.touch = touch;
   return pointer;
+}
+
+tools::Pointer pointerOf(const QMouseEvent& event) {
+  const bool touch = event.deviceType() == QInputDevice::DeviceType::TouchScreen;
+  return pointerOf(event.position(), event.modifiers(), touch);
 }
 
 int dominantAxis(const Eigen::Vector3d& direction) {
@@ -142,6 +148,22 @@ void SliceView::zoomAt(const QPointF& at, double factor) {
   zoom_px_mm_ = wanted;
   fitted_ = false;
   if (tool_) emit toolMoved(pointerOf(at, Qt::NoModifier));
+  emit placeChanged();
+  update();
+}
+
+Eigen::Vector3d SliceView::centre_lps() const {
+  const QPointF middle = imageArea().center();
+  return plane().toLps({middle.x(), middle.y()});
+}
+
+void SliceView::showPlace(const Eigen::Vector3d& centre_lps, double zoom_px_mm) {
+  if (!hasVolume()) return;
+  zoom_px_mm_ = std::clamp(zoom_px_mm, 0.2, 60.0);
+  const Eigen::Vector2d off = plane().toPixel(centre_lps);
+  const QPointF middle = imageArea().center();
+  offset_px_ += Eigen::Vector2d(middle.x(), middle.y()) - off;
+  fitted_ = false;
   update();
 }
 
@@ -156,13 +178,13 @@ void SliceView::mousePressEvent(QMouseEvent* event) {
   const bool alt = event->modifiers().testFlag(Qt::AltModifier);
   if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && space_))
     drag_ = Drag::Pan;
-  else if (event->button() == Qt::LeftButton && alt)
+  else if (event->button() == Qt::LeftButton && (alt || leftWindows_))
     drag_ = Drag::Window;
   else if (event->button() == Qt::RightButton)
     drag_ = Drag::Zoom;
   else if (event->button() == Qt::LeftButton) {
     drag_ = Drag::Tool;
-    emit toolPressed(pointerOf(event->position(), event->modifiers()));
+    emit toolPressed(pointerOf(*event));
   }
 }
 
@@ -175,6 +197,7 @@ void SliceView::mouseMoveEvent(QMouseEvent* event) {
     case Drag::Pan:
       offset_px_ += Eigen::Vector2d(step.x(), step.y());
       fitted_ = false;
+      emit placeChanged();
       update();
       break;
     case Drag::Zoom:
@@ -191,7 +214,7 @@ void SliceView::mouseMoveEvent(QMouseEvent* event) {
     }
     case Drag::Tool:
     case Drag::None:
-      emit toolMoved(pointerOf(at, event->modifiers()));
+      emit toolMoved(pointerOf(*event));
       break;
   }
   emit cursorMoved(plane().toLps({at.x(), at.y()}));
@@ -201,15 +224,15 @@ void SliceView::mouseMoveEvent(QMouseEvent* event) {
 void SliceView::mouseReleaseEvent(QMouseEvent* event) {
   const Drag was = std::exchange(drag_, Drag::None);
   if (!hasVolume()) return;
-  if (was == Drag::Tool) emit toolReleased(pointerOf(event->position(), event->modifiers()));
-  if (was == Drag::Zoom && !moved_) emit toolRightClicked(pointerOf(event->position(), event->modifiers()));
+  if (was == Drag::Tool) emit toolReleased(pointerOf(*event));
+  if (was == Drag::Zoom && !moved_) emit toolRightClicked(pointerOf(*event));
   update();
 }
 
 void SliceView::mouseDoubleClickEvent(QMouseEvent* event) {
   if (!hasVolume()) return;
   if (event->button() == Qt::LeftButton)
-    emit toolDoubleClicked(pointerOf(event->position(), event->modifiers()));
+    emit toolDoubleClicked(pointerOf(*event));
   else if (event->button() == Qt::MiddleButton)
     fit();
 }
@@ -225,55 +248,27 @@ void SliceView::wheelEvent(QWheelEvent* event) {
 }
 
 void SliceView::keyPressEvent(QKeyEvent* event) {
-  const bool ctrl = event->modifiers().testFlag(Qt::ControlModifier);
-  switch (event->key()) {
-    case Qt::Key_Space:
-      space_ = true;
-      return;
-    case Qt::Key_H:
-      hidden_ = true;
-      update();
-      return;
-    case Qt::Key_Return:
-    case Qt::Key_Enter:
-      emit toolKey(ctrl ? tools::ToolKey::CtrlEnter : tools::ToolKey::Enter);
-      return;
-    case Qt::Key_Backspace:
-      emit toolKey(tools::ToolKey::Backspace);
-      return;
-    case Qt::Key_Delete:
-      emit toolKey(tools::ToolKey::Delete);
-      return;
-    case Qt::Key_Escape:
-      emit toolKey(tools::ToolKey::Escape);
-      return;
-    case Qt::Key_Up:
-    case Qt::Key_PageUp:
-      setSlice(slice_ + 1);
-      return;
-    case Qt::Key_Down:
-    case Qt::Key_PageDown:
-      setSlice(slice_ - 1);
-      return;
-    case Qt::Key_Home:
-      setSlice(0);
-      return;
-    case Qt::Key_End:
-      setSlice(sliceCount() - 1);
-      return;
-    default:
-      QWidget::keyPressEvent(event);
+  if (event->key() == Qt::Key_Space) {
+    space_ = true;
+    return;
   }
+  event->ignore();  // whoever takes it accepts it
+  emit keyDown(event);
+  if (!event->isAccepted()) QWidget::keyPressEvent(event);
 }
 
 void SliceView::keyReleaseEvent(QKeyEvent* event) {
   if (event->isAutoRepeat()) return;
   if (event->key() == Qt::Key_Space)
     space_ = false;
-  else if (event->key() == Qt::Key_H)
-    hidden_ = false, update();
   else
-    QWidget::keyReleaseEvent(event);
+    emit keyUp(event);
+}
+
+void SliceView::setNote(const QString& note) {
+  if (note == note_) return;
+  note_ = note;
+  update();
 }
 
 void SliceView::enterEvent(QEnterEvent*) {

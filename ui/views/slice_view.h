@@ -10,6 +10,7 @@
 
 #include "image/volume.h"
 #include "roi/contour_stack.h"
+#include "tools/measure_tool.h"
 #include "tools/polygon_tool.h"
 #include "tools/slice_plane.h"
 
@@ -21,6 +22,7 @@ struct ShownVolume {
   std::shared_ptr<const image::ScalarVolume> confidence;  ///< same grid; hatched below the threshold; may be null
   double confidenceThreshold = 0.95;                      ///< of 1
   bool stiffness = false;                                 ///< colour scale with a bar; else grey levels
+  bool wave = false;                                      ///< blue, white, red around 0
   double low = 0.0, high = 1.0;                           ///< window
   QString title;                                          ///< "MRI", "MRE stiffness": never patient text
   QString unit;                                           ///< of the value under the cursor
@@ -28,7 +30,8 @@ struct ShownVolume {
 };
 
 /// One slice of a volume with contours, cursor and readouts. Wheel: slice; Ctrl+wheel or right drag: zoom; middle drag
-/// or Space+drag: pan; Alt+drag: window and level. The left button and keys are passed on to whoever holds the tool.
+/// or Space+drag: pan; Alt+drag: window and level. The left button and keys are passed on to whoever holds the tool,
+/// with every other key.
 class SliceView : public QWidget {
   Q_OBJECT
  public:
@@ -43,6 +46,16 @@ class SliceView : public QWidget {
   /// Both must outlive the view or be set to null.
   void setContours(const roi::ContourStack* contours, const tools::PolygonTool* tool);
 
+  /// What lies over the image beside the outlines; null = nothing. All must outlive the view or be set to null.
+  void setMeasurements(const tools::MeasureTool* measurements) { measurements_ = measurements, update(); }
+  void setSecondReader(const roi::ContourStack* contours) { second_ = contours, update(); }
+  /// Border of an inner region, on the grid of the volume; else it is not drawn.
+  void setInner(std::shared_ptr<const image::Mask> inner) { inner_ = std::move(inner), update(); }
+  void setNote(const QString& note);  ///< a few words under the slice number: a mark of the slice
+  void setOverlaysHidden(bool hidden) { hidden_ = hidden, update(); }
+  /// The left button changes the window instead of going to the tool.
+  void setLeftDragWindows(bool on) { leftWindows_ = on; }
+
   int slice() const { return slice_; }
   int sliceCount() const { return volume_.values ? volume_.values->grid.size.z() : 0; }
   void setSlice(int slice);
@@ -50,6 +63,10 @@ class SliceView : public QWidget {
   void setCursor(std::optional<Eigen::Vector3d> p_lps);
   void setWindow(double low, double high);
   void fit();
+  /// Shows the same place at the same scale as another view does.
+  void showPlace(const Eigen::Vector3d& centre_lps, double zoom_px_mm);
+  Eigen::Vector3d centre_lps() const;
+  double zoom_px_mm() const { return zoom_px_mm_; }
   void setHint(const QString& hint);  ///< shown in the middle while there is no volume
 
   /// The map between this view and the patient. Valid while hasVolume().
@@ -68,7 +85,9 @@ class SliceView : public QWidget {
   void toolReleased(const glisson::tools::Pointer& at);
   void toolDoubleClicked(const glisson::tools::Pointer& at);
   void toolRightClicked(const glisson::tools::Pointer& at);
-  void toolKey(glisson::tools::ToolKey key);
+  void placeChanged();  ///< zoomed or panned by hand
+  void keyDown(QKeyEvent* event);
+  void keyUp(QKeyEvent* event);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -92,6 +111,7 @@ class SliceView : public QWidget {
   void paintContours(QPainter& painter) const;
   void paintOutlineInWork(QPainter& painter, const tools::SlicePlane& plane) const;
   void paintCursor(QPainter& painter) const;
+  void paintExtras(QPainter& painter, const tools::SlicePlane& plane) const;
   void paintLabels(QPainter& painter) const;
   void paintColourBar(QPainter& painter) const;
   void paintScaleBar(QPainter& painter) const;
@@ -109,8 +129,11 @@ class SliceView : public QWidget {
   bool stale_ = true;
   Drag drag_ = Drag::None;
   QPointF pressed_, last_;
-  bool moved_ = false, space_ = false, hidden_ = false;
-  QString hint_;
+  bool moved_ = false, space_ = false, hidden_ = false, leftWindows_ = false;
+  const tools::MeasureTool* measurements_ = nullptr;
+  const roi::ContourStack* second_ = nullptr;
+  std::shared_ptr<const image::Mask> inner_;
+  QString hint_, note_;
 };
 
 }  // namespace glisson::views

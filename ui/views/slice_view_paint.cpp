@@ -19,6 +19,9 @@ const QColor faint(148, 160, 176);
 const QColor acceptedColour(255, 209, 71);
 const QColor draftColour(110, 205, 255);
 const QColor crossingColour(255, 82, 160);
+const QColor excludedColour(255, 140, 66);
+const QColor secondColour(196, 148, 255);
+const QColor measureColour(120, 240, 180);
 
 QPointF point(const Eigen::Vector2d& p) {
   return {p.x(), p.y()};
@@ -78,7 +81,7 @@ void SliceView::renderSlice() {
   const image::Grid& grid = volume_.values->grid;
   const int nx = grid.size.x(), ny = grid.size.y();
   image_ = QImage(nx, ny, QImage::Format_RGB32);
-  const auto& colours = volume_.stiffness ? stiffnessColours() : greyLevels();
+  const auto& colours = volume_.stiffness ? stiffnessColours() : volume_.wave ? waveColours() : greyLevels();
   const double scale = 255.0 / (volume_.high - volume_.low);
   for (int j = 0; j < ny; ++j) {
     auto* line = reinterpret_cast<QRgb*>(image_.scanLine(j));
@@ -151,7 +154,10 @@ void SliceView::paintContours(QPainter& painter) const {
     const bool crossing = moving && tool_->crosses();
     // Interpolated outlines count like accepted ones: their colour, but dashed until somebody has looked at them.
     const bool draft = polygon.state == roi::PolygonState::Draft;
-    const QColor colour = crossing ? crossingColour : draft ? draftColour : acceptedColour;
+    const QColor colour = crossing          ? crossingColour
+                          : polygon.exclude ? excludedColour
+                          : draft           ? draftColour
+                                            : acceptedColour;
     const QPainterPath path = pathOf(outline, true);
     if (selected) {
       QColor wash = colour;
@@ -169,7 +175,49 @@ void SliceView::paintContours(QPainter& painter) const {
       drawHandle(painter, outline[v], colour, strong);
     }
   }
+  paintExtras(painter, shown);
   if (tool_) paintOutlineInWork(painter, shown);
+}
+
+// A second reader, the inner region, distances, and the sculpting disc.
+void SliceView::paintExtras(QPainter& painter, const tools::SlicePlane& shown) const {
+  if (second_)
+    for (const roi::Polygon& polygon : second_->polygons)
+      if (shown.holds(polygon))
+        strokeWithHalo(painter, pathOf(toScreen(polygon.points_lps_mm, shown), true), secondColour, 1.4, true);
+  if (inner_ && inner_->grid.sameGeometry(shown.grid)) {
+    QPainterPath border;
+    const auto corner = [&](double i, double j) {
+      return point(shown.toPixel(shown.grid.indexToLps({i, j, 1.0 * slice_})));
+    };
+    const auto in = [&](int i, int j) {
+      return i >= 0 && j >= 0 && i < shown.grid.size.x() && j < shown.grid.size.y() && inner_->at(i, j, slice_) != 0;
+    };
+    for (int j = 0; j <= shown.grid.size.y(); ++j)
+      for (int i = 0; i <= shown.grid.size.x(); ++i) {
+        if (in(i, j) != in(i - 1, j)) border.moveTo(corner(i - 0.5, j - 0.5)), border.lineTo(corner(i - 0.5, j + 0.5));
+        if (in(i, j) != in(i, j - 1)) border.moveTo(corner(i - 0.5, j - 0.5)), border.lineTo(corner(i + 0.5, j - 0.5));
+      }
+    strokeWithHalo(painter, border, ink, 1.2, false);
+  }
+  if (measurements_) {
+    const auto draw = [&](const tools::Distance& d) {
+      const double k = shown.grid.lpsToIndex(d.from_lps_mm).z();
+      if (std::lround(k) != slice_) return;
+      const QPointF a = point(shown.toPixel(d.from_lps_mm)), b = point(shown.toPixel(d.to_lps_mm));
+      strokeWithHalo(painter, pathOf(QPolygonF({a, b}), false), measureColour, 1.6, false);
+      for (const QPointF& end : {a, b}) drawHandle(painter, end, measureColour, false);
+      textWithHalo(painter, (a + b) / 2.0 + QPointF(8.0, -8.0), QString::number(d.length_mm(), 'f', 1) + tr(" mm"),
+                   measureColour);
+    };
+    for (const tools::Distance& d : measurements_->distances()) draw(d);
+    if (measurements_->inWork()) draw(*measurements_->inWork());
+  }
+  if (tool_ && tool_->brush()) {
+    painter.setPen(QPen(ink, 1.2, Qt::DashLine));
+    painter.setBrush(QColor(255, 255, 255, 20));
+    painter.drawEllipse(point(shown.toPixel(*tool_->brush())), tool_->brushRadius(), tool_->brushRadius());
+  }
 }
 
 void SliceView::paintOutlineInWork(QPainter& painter, const tools::SlicePlane& shown) const {
@@ -262,11 +310,14 @@ void SliceView::paintLabels(QPainter& painter) const {
   painter.setFont(font);
   QString where = tr("slice %1 / %2").arg(slice_ + 1).arg(sliceCount());
   textWithHalo(painter, {14.0, 43.0}, where, faint);
+  if (!note_.isEmpty()) textWithHalo(painter, {14.0, 62.0}, note_, excludedColour);
   if (cursor_) {
     const std::optional<double> value = valueAt(*cursor_);
     if (value)
       textWithHalo(painter, {14.0, height() - 16.0},
-                   QString::number(*value, 'f', volume_.stiffness ? 2 : 0) + QLatin1Char(' ') + volume_.unit, ink);
+                   QString::number(*value, 'f', volume_.stiffness || volume_.high - volume_.low < 20.0 ? 2 : 0) +
+                       QLatin1Char(' ') + volume_.unit,
+                   ink);
   }
 }
 

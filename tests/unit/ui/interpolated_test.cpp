@@ -20,7 +20,7 @@ struct Interpolated : test::ToolBench {
       apply(tool.key(tools::ToolKey::Escape, plane));
     }
     plane.slice = 2;
-    contours = roi::interpolateBetween(contours, plane.grid);
+    static_cast<roi::ContourStack&>(contours) = roi::interpolateBetween(contours, plane.grid);
   }
   void settle(const tools::Acts& acts) {
     for (const tools::Act& act : acts) {

@@ -10,7 +10,7 @@ namespace glisson::test {
 /// An oblique, anisotropic slice stack under the polygon tool, with undo: what the workstation does, without a window.
 struct ToolBench {
   tools::SlicePlane plane;
-  roi::ContourStack contours;
+  commands::Outlines contours;
   commands::UndoStack undo;
   tools::PolygonTool tool{contours};
 

@@ -16,7 +16,7 @@ void randomWork(ToolBench& b, std::uint64_t seed, int gestures) {
   for (int n = 0; n < gestures; ++n) {
     const double x = random.uniform(-20, 520), y = random.uniform(-20, 520);
     const tools::Modifiers m{random.uniform() < 0.15, random.uniform() < 0.15};
-    const auto action = random.below(10);
+    const auto action = random.below(15);
     if (action < 5)
       b.click(x, y, m);
     else if (action == 5)
@@ -27,10 +27,19 @@ void randomWork(ToolBench& b, std::uint64_t seed, int gestures) {
       b.apply(b.tool.doubleClick(ToolBench::at(x, y), b.plane));
     else if (action == 8)
       b.key(static_cast<tools::ToolKey>(random.below(5)));
-    else {
+    else if (action == 9) {
       b.apply(b.tool.leaveSlice(b.plane));
       b.plane.slice = static_cast<int>(random.below(5));
-    }
+    } else if (action == 10)
+      b.apply(b.tool.setMode(static_cast<tools::ToolMode>(random.below(3)), b.plane));
+    else if (action == 11)
+      b.apply(random.uniform() < 0.5 ? b.tool.split() : b.tool.trim());
+    else if (action == 12)
+      b.apply(b.tool.setKind(random.uniform() < 0.5));
+    else if (action == 13)
+      b.apply(b.tool.nudge({random.uniform(-1, 1), random.uniform(-1, 1)}, b.plane));
+    else
+      b.tool.selectAll(b.plane);
   }
 }
 

@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "session/atomic_file.h"
+#include "session/case_file.h"
+#include "session/case_lock.h"
+#include "session/measured_contours.h"
+#include "support/support.h"
+#include "tool_bench.h"
+
+namespace glisson::session {
+namespace {
+
+CaseRecord record(double x) {
+  CaseRecord r;
+  r.source = "/some/where/patient";
+  r.seriesUid = "1.2.840";
+  r.roles["1.2.3"] = dicom::SeriesRole::Stiffness;
+  roi::Polygon p;
+  p.points_lps_mm.resize(3, 3);
+  p.points_lps_mm << x, x + 1.0 / 3.0, x, 0.1, 0.2, 7.7, 5.0, 5.0, 5.0;
+  r.outlines.polygons = {p, p};
+  r.outlines.polygons[1].state = roi::PolygonState::Draft;
+  r.outlines.marks = {{3, commands::SliceMark::NoLiver}, {9, commands::SliceMark::NoWave}};
+  r.parameters.poisson = 0.4;
+  r.parameters.model = retraction::ModelKind::Meshfree;
+  r.parameters.retractorDiameter_mm = 12.5;
+  r.measure = {true, 4};
+  r.sceneJson = "{}\n";
+  return r;
+}
+
+TEST(CaseFile, ComesBackToTheBit) {
+  const test::TemporaryFolder folder;
+  const CaseRecord wrote = record(1.0 / 7.0);
+  EXPECT_EQ(writeCaseRecord(wrote, folder.path()), 1);
+  EXPECT_TRUE(isCase(folder.path()) && isCase(folder / "case.json"));
+  const CaseRecord read = readCaseRecord(folder / "case.json");
+  EXPECT_TRUE(test::same(read.outlines, wrote.outlines));
+  EXPECT_EQ(read.outlines.marks, wrote.outlines.marks);
+  EXPECT_EQ(read.parameters, wrote.parameters);
+  EXPECT_EQ(read.measure, wrote.measure);
+  EXPECT_EQ(read.roles, wrote.roles);
+  EXPECT_EQ(read.seriesUid, wrote.seriesUid);
+  EXPECT_EQ(read.sceneJson, wrote.sceneJson);
+}
+
+TEST(CaseFile, EveryFlippedBitIsFoundAndAWholeVersionNamed) {
+  const test::TemporaryFolder folder;
+  writeCaseRecord(record(1.0), folder.path());
+  writeCaseRecord(record(2.0), folder.path());
+  Random random(11);
+  for (const char* name : {"case.json", "contours.json", "scene.json"}) {
+    const std::string whole = readWhole(folder / name);
+    for (int n = 0; n < 25; ++n) {
+      std::string damaged = whole;
+      const std::size_t at = random.below(damaged.size());
+      damaged[at] = static_cast<char>(damaged[at] ^ (1 << random.below(8)));
+      std::ofstream(folder / name, std::ios::binary) << damaged;
+      // White space between the values of case.json is no content; everything else is.
+      const bool blank = std::string(name) == "case.json" &&
+                         (std::isspace(static_cast<unsigned char>(whole[at])) != 0) &&
+                         (std::isspace(static_cast<unsigned char>(damaged[at])) != 0);
+      if (blank) continue;
+      try {
+        readCaseRecord(folder.path());
+        ADD_FAILURE() << name << ": a flipped bit at " << at << " went unseen";
+      } catch (const BadInput& e) {
+        EXPECT_NE(std::string(e.what()).find("versions/000001"), std::string::npos) << e.what();
+      }
+    }
+    std::ofstream(folder / name, std::ios::binary) << whole;
+  }
+  EXPECT_NO_THROW(readCaseRecord(folder.path()));
+}
+
+TEST(CaseFile, KeepsTheNewestVersions) {
+  const test::TemporaryFolder folder;
+  for (int n = 1; n <= keptVersions + 5; ++n) EXPECT_EQ(writeCaseRecord(record(n), folder.path()), n);
+  const auto versions = versionsOf(folder.path());
+  ASSERT_EQ(versions.size(), static_cast<std::size_t>(keptVersions));
+  // The newest kept one is the one before the case itself.
+  EXPECT_EQ(readCaseRecord(versions.back()).outlines.polygons[0].points_lps_mm(0, 0), keptVersions + 4.0);
+  EXPECT_EQ(readCaseRecord(versions.front()).outlines.polygons[0].points_lps_mm(0, 0), 5.0);
+}
+
+TEST(CaseFile, KilledWhileSavingLeavesTheCaseOrItsVersionWhole) {
+  const test::TemporaryFolder folder;
+  writeCaseRecord(record(0.0), folder.path());
+  for (int round = 0; round < 8; ++round) {
+    const pid_t child = ::fork();
+    if (child == 0)
+      for (int n = 1;; ++n) writeCaseRecord(record(n), folder.path());
+    ::usleep(static_cast<useconds_t>(7000 + 3700 * round));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    bool whole = true;
+    try {
+      readCaseRecord(folder.path());
+    } catch (const BadInput& e) {
+      whole = std::string(e.what()).find("version that is whole is versions/") != std::string::npos;
+    }
+    EXPECT_TRUE(whole) << "round " << round;
+  }
+}
+
+TEST(CaseFile, AFolderThatCannotBeWrittenKeepsWhatIsThere) {
+  EXPECT_THROW(writeCaseRecord(record(1.0), "/proc/no-such-place"), BadInput);
+  EXPECT_THROW(writeAtomically("/dev/full/case.json", "text"), BadInput);
+}
+
+TEST(CaseLock, ASecondWindowIsRefusedAndADeadOneTakenOver) {
+  const test::TemporaryFolder folder;
+  {
+    const CaseLock first(folder.path());
+    EXPECT_TRUE(first.writable());
+    EXPECT_FALSE(first.tookOverStale());
+    EXPECT_THROW(CaseLock second(folder.path()), BadInput);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "case.lock"));
+  const pid_t child = ::fork();
+  if (child == 0) {
+    new CaseLock(folder.path());
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(std::filesystem::exists(folder / "case.lock"));
+  const CaseLock after(folder.path());
+  EXPECT_TRUE(after.tookOverStale());
+  EXPECT_TRUE(after.writable());
+}
+
+TEST(CaseLock, AnotherMachineCountsWhileItTouchesTheLock) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "case.lock") << "another-machine\n123\n";
+  EXPECT_THROW(CaseLock here(folder.path()), BadInput);
+  std::filesystem::last_write_time(folder / "case.lock", std::filesystem::file_time_type::clock::now() -
+                                                             std::chrono::seconds(CaseLock::staleAfter_s + 5));
+  const CaseLock here(folder.path());
+  EXPECT_TRUE(here.tookOverStale());
+}
+
+TEST(MeasuredContours, ASliceWithoutWaveCountsNoVoxelOnAnySliceOfTheSameElastogramSlice) {
+  image::Grid mri, mre;
+  mri.size = {40, 40, 12};
+  mri.spacing_mm = {2.0, 2.0, 3.0};
+  mre.size = {40, 40, 3};
+  mre.spacing_mm = {2.0, 2.0, 12.0};
+  mre.origin_lps_mm = {0.0, 0.0, 4.5};
+  commands::Outlines outlines;
+  for (int k = 0; k < 12; ++k) {
+    roi::Polygon square;
+    square.points_lps_mm.resize(3, 4);
+    square.points_lps_mm << 19, 61, 61, 19, 19, 19, 61, 61, 3.0 * k, 3.0 * k, 3.0 * k, 3.0 * k;
+    outlines.polygons.push_back(square);
+  }
+  outlines.marks[5] = commands::SliceMark::NoWave;
+  outlines.marks[0] = commands::SliceMark::NoLiver;
+  const image::Mask mask = roi::rasterise(measuredContours(outlines, mri, mre), mri);
+  for (int k = 0; k < 12; ++k) EXPECT_EQ(mask.at(20, 20, k), k / 4 == 1 ? 0 : 1) << k;
+}
+
+}  // namespace
+}  // namespace glisson::session

@@ -1,0 +1,95 @@
+#include "panels/key_sheet.h"
+
+#include <QCoreApplication>
+#include <QDialogButtonBox>
+#include <QHeaderView>
+#include <QKeySequenceEdit>
+#include <QLabel>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QTabWidget>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include "panels/form.h"
+#include "panels/keys.h"
+
+namespace glisson::panels {
+
+namespace {
+
+QTreeWidget* tree(const char* name, const QStringList& columns) {
+  auto* t = new QTreeWidget;
+  t->setObjectName(QString::fromLatin1(name));
+  t->setHeaderLabels(columns);
+  t->setRootIsDecorated(false);
+  t->setAlternatingRowColors(true);
+  t->setWordWrap(true);
+  return t;
+}
+
+QString translated(const char* text) {
+  return *text ? QCoreApplication::translate("keymap", text) : QStringLiteral("–");
+}
+
+}  // namespace
+
+KeySheet::KeySheet(Keys& keys, QWidget* parent) : QDialog(parent), keys_(keys) {
+  setWindowTitle(tr("Keys and mouse"));
+  setObjectName(QStringLiteral("keySheet"));
+  resize(820, 720);
+  auto* layout = new QVBoxLayout(this);
+  auto* tabs = new QTabWidget;
+  layout->addWidget(tabs);
+  table_ = tree("keyTable", {tr("What"), tr("Key"), tr("Group")});
+  table_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  tabs->addTab(table_, tr("Keys"));
+  auto* mouse = tree("gestureTable", {tr("Mouse"), tr("Idle"), tr("Drawing"), tr("Editing, accepted")});
+  mouse->header()->setSectionResizeMode(QHeaderView::Stretch);
+  for (const tools::GestureEntry& g : tools::gestureTable())
+    new QTreeWidgetItem(mouse,
+                        {translated(g.gesture), translated(g.idle), translated(g.drawing), translated(g.editing)});
+  tabs->addTab(mouse, tr("Mouse"));
+  layout->addWidget(
+      labelled(tr("Double-click a key to change it. Keys work while the mouse is over an image."), "faint"));
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+  QPushButton* reset = buttons->addButton(tr("As shipped"), QDialogButtonBox::ResetRole);
+  layout->addWidget(buttons);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  connect(reset, &QPushButton::clicked, &keys_, &Keys::reset);
+  connect(&keys_, &Keys::changed, this, &KeySheet::fill);
+  connect(table_, &QTreeWidget::itemActivated, this,
+          [this](QTreeWidgetItem* item) { change(item->data(0, Qt::UserRole).toInt()); });
+  fill();
+}
+
+void KeySheet::fill() {
+  table_->clear();
+  for (const tools::KeyEntry& e : tools::keyTable()) {
+    QStringList keys;
+    for (const QKeySequence& k : keys_.of(e.command)) keys << k.toString(QKeySequence::NativeText);
+    auto* item = new QTreeWidgetItem(table_, {nameOf(e.command), keys.join(QStringLiteral(", ")), translated(e.group)});
+    item->setData(0, Qt::UserRole, static_cast<int>(e.command));
+  }
+  table_->resizeColumnToContents(1);
+}
+
+void KeySheet::change(int command) {
+  const auto wanted = static_cast<tools::Command>(command);
+  QDialog dialog(this);
+  dialog.setWindowTitle(nameOf(wanted));
+  auto* layout = new QVBoxLayout(&dialog);
+  layout->addWidget(new QLabel(tr("Press the new key:")));
+  auto* edit = new QKeySequenceEdit;
+  layout->addWidget(edit);
+  auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
+  layout->addWidget(buttons);
+  connect(buttons, &QDialogButtonBox::accepted, &dialog, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
+  edit->setFocus();
+  if (dialog.exec() != QDialog::Accepted || edit->keySequence().isEmpty()) return;
+  if (const auto taken = keys_.set(wanted, QKeySequence(edit->keySequence()[0])))
+    QMessageBox::information(this, windowTitle(), tr("This key already means: %1").arg(nameOf(*taken)));
+}
+
+}  // namespace glisson::panels

@@ -1,0 +1,137 @@
+// Opening, saving, recent ones, recovery, drag and drop.
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QMimeData>
+#include <QPushButton>
+#include <QSettings>
+#include <QStatusBar>
+
+#include "panels/form.h"
+#include "panels/load_page.h"
+#include "panels/main_window.h"
+
+namespace glisson::panels {
+
+using session::Step;
+
+namespace {
+constexpr int recentKept = 10;
+const QString recentKey = QStringLiteral("recent");
+}  // namespace
+
+void MainWindow::openFolder() {
+  if (!mayDiscard()) return;
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Open DICOM folder"), session_.path());
+  if (folder.isEmpty()) return;
+  showStep(Step::Load);
+  session_.openPath(folder);
+}
+
+void MainWindow::openSynthetic() {
+  if (!mayDiscard()) return;
+  showStep(Step::Load);
+  session_.openSynthetic();
+}
+
+void MainWindow::importOutlines() {
+  const QString file =
+      QFileDialog::getOpenFileName(this, tr("Import outlines"), session_.path(),
+                                   tr("Outlines (*.dcm *.json *.nii *.nii.gz *.nrrd *.mha);;All files (*)"));
+  if (file.isEmpty()) return;
+  attempt(tr("Import outlines"), [&] { session_.importContours(file); });
+  showStep(Step::Segment);
+}
+
+void MainWindow::saveCase() {
+  if (session_.caseFolder().isEmpty() || session_.readOnly())
+    saveCaseAs();
+  else
+    session_.saveInBackground();
+}
+
+void MainWindow::saveCaseAs() {
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Save case into a folder"));
+  if (folder.isEmpty()) return;
+  attempt(tr("Save case"), [&] { session_.saveCase(folder); });
+}
+
+void MainWindow::openCase() {
+  const QString file =
+      QFileDialog::getOpenFileName(this, tr("Open case or archive"), session_.path(),
+                                   tr("Cases, archives, DICOMDIR (case.json *.zip DICOMDIR);;All files (*)"));
+  if (!file.isEmpty()) openPath(file);
+}
+
+void MainWindow::openPath(const QString& path) {
+  if (!mayDiscard()) return;
+  showStep(Step::Load);
+  session_.openPath(path);
+}
+
+void MainWindow::loadSecondReader() {
+  const QString file = QFileDialog::getOpenFileName(this, tr("A second reader's outlines"), session_.path(),
+                                                    tr("Outlines and cases (*.json *.dcm);;All files (*)"));
+  if (file.isEmpty()) return;
+  attempt(tr("A second reader's outlines"), [&] { session_.loadSecondReader(file); });
+  if (!session_.secondReader().polygons.empty()) session_.compareReaders();
+}
+
+void MainWindow::remember(const QString& path) {
+  if (path.isEmpty()) return;
+  QSettings settings;
+  QStringList all = settings.value(recentKey).toStringList();
+  all.removeAll(path);
+  all.prepend(path);
+  settings.setValue(recentKey, all.mid(0, recentKept));
+}
+
+void MainWindow::fillRecent() {
+  recent_->clear();
+  for (const QString& path : QSettings().value(recentKey).toStringList())
+    connect(recent_->addAction(path), &QAction::triggered, this, [this, path] { openPath(path); });
+  if (recent_->isEmpty()) recent_->addAction(tr("None yet"))->setEnabled(false);
+}
+
+// What a crash left behind is offered once, above the pages, and never in the way.
+void MainWindow::offerRecovery() {
+  const auto found = session::Journal::abandoned(session_.journalFolder().toStdString());
+  if (found.empty()) return;
+  const session::Journalled newest = found.front();
+  auto* row = qobject_cast<QHBoxLayout*>(recovery_->layout());
+  auto* text =
+      new QLabel(tr("Glisson did not end in order. %1 outlines can be brought back%2.")
+                     .arg(newest.outlines.polygons.size())
+                     .arg(newest.inWork.points_lps_mm.cols() > 0 ? tr(", and the one being drawn") : QString()));
+  auto* recover = button("recoverButton", tr("Recover"), {}, tr("Opens the patient and puts the outlines back"));
+  recover->setProperty("primary", true);
+  auto* later = button("recoverLaterButton", tr("Later"), {}, tr("Keeps it for the next start"));
+  auto* discard = button("recoverDiscardButton", tr("Discard"), {}, tr("Deletes what could be brought back"));
+  row->addWidget(text, 1);
+  for (QPushButton* b : {recover, later, discard}) row->addWidget(b);
+  connect(recover, &QPushButton::clicked, this, [this, newest] {
+    recovery_->hide();
+    showStep(Step::Load);
+    session_.recover(newest);
+  });
+  connect(later, &QPushButton::clicked, recovery_, &QWidget::hide);
+  connect(discard, &QPushButton::clicked, this, [this, newest] {
+    std::error_code ignored;
+    std::filesystem::remove(newest.file, ignored);
+    recovery_->hide();
+  });
+  recovery_->show();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  const QList<QUrl> urls = event->mimeData()->urls();
+  if (!urls.isEmpty() && urls.front().isLocalFile()) openPath(urls.front().toLocalFile());
+}
+
+}  // namespace glisson::panels

@@ -1,0 +1,76 @@
+// The menus of the window.
+#include <QAction>
+#include <QActionGroup>
+#include <QMenuBar>
+
+#include "panels/main_window.h"
+#include "panels/segment_page.h"
+#include "panels/theme.h"
+#include "views/slice_view.h"
+
+namespace glisson::panels {
+
+void MainWindow::makeMenus() {
+  const auto add = [this](QMenu* menu, const char* name, const QString& text, const QKeySequence& keys, auto slot) {
+    QAction* action = menu->addAction(text);
+    action->setObjectName(QString::fromLatin1(name));
+    action->setShortcut(keys);
+    connect(action, &QAction::triggered, this, slot);
+    return action;
+  };
+  QMenu* file = menuBar()->addMenu(tr("&File"));
+  add(file, "openAction", tr("&Open DICOM folder…"), QKeySequence::Open, &MainWindow::openFolder);
+  add(file, "openCaseAction", tr("Open &case or archive…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_O),
+      &MainWindow::openCase);
+  recent_ = file->addMenu(tr("&Recent"));
+  recent_->setObjectName(QStringLiteral("recentMenu"));
+  connect(recent_, &QMenu::aboutToShow, this, &MainWindow::fillRecent);
+  add(file, "syntheticAction", tr("Synthetic &patient"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_N),
+      &MainWindow::openSynthetic);
+  file->addSeparator();
+  importAction_ = add(file, "importAction", tr("&Import outlines…"), QKeySequence(Qt::CTRL | Qt::Key_I),
+                      &MainWindow::importOutlines);
+  saveAction_ = add(file, "saveAction", tr("&Save case"), QKeySequence::Save, &MainWindow::saveCase);
+  saveAsAction_ = add(file, "saveAsAction", tr("Save case &as…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S),
+                      &MainWindow::saveCaseAs);
+  file->addSeparator();
+  add(file, "quitAction", tr("&Quit"), QKeySequence::Quit, &QWidget::close);
+  QMenu* edit = menuBar()->addMenu(tr("&Edit"));
+  undoAction_ = add(edit, "undoAction", tr("&Undo"), QKeySequence::Undo, [this] { session_.undo(); });
+  redoAction_ =
+      add(edit, "redoAction", tr("&Redo"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z), [this] { session_.redo(); });
+  edit->addSeparator();
+  interpolateAction_ =
+      add(edit, "interpolateAction", tr("&Interpolate between slices"), {}, [this] { session_.interpolateOutlines(); });
+  acceptAllAction_ = add(edit, "acceptAllAction", tr("&Accept all interpolated outlines"), {},
+                         [this] { session_.acceptInterpolated(); });
+  edit->addSeparator();
+  add(edit, "secondReaderAction", tr("Load a &second reader's outlines…"), {}, &MainWindow::loadSecondReader);
+  add(edit, "compareReadersAction", tr("&Compare both readers"), {}, [this] { session_.compareReaders(); });
+  QMenu* work = menuBar()->addMenu(tr("&Run"));
+  runAction_ =
+      add(work, "runAction", tr("&Build, retract and compare"), QKeySequence(Qt::CTRL | Qt::Key_R), &MainWindow::run);
+  add(work, "cancelAction", tr("&Cancel"), QKeySequence(Qt::CTRL | Qt::Key_Period), [this] { session_.cancel(); });
+  QMenu* view = menuBar()->addMenu(tr("&View"));
+  auto* themes = new QActionGroup(this);
+  for (const Theme theme : {Theme::Dark, Theme::Light}) {
+    QAction* action = add(view, theme == Theme::Dark ? "darkTheme" : "lightTheme",
+                          theme == Theme::Dark ? tr("&Dark theme") : tr("&Light theme"), {}, [this, theme] {
+                            applyTheme(theme);
+                            refreshIcons();
+                          });
+    action->setCheckable(true);
+    action->setChecked(theme == currentTheme());
+    themes->addAction(action);
+  }
+  view->addSeparator();
+  add(view, "fitAction", tr("&Fit images"), QKeySequence(Qt::CTRL | Qt::Key_0), [this] {
+    segment_->mriView()->fit();
+    segment_->mreView()->fit();
+  });
+  QMenu* help = menuBar()->addMenu(tr("&Help"));
+  add(help, "keysAction", tr("&Keys and mouse"), QKeySequence(Qt::Key_F1), &MainWindow::showKeys);
+  add(help, "aboutAction", tr("&About Glisson"), {}, &MainWindow::about);
+}
+
+}  // namespace glisson::panels

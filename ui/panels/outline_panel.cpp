@@ -1,0 +1,278 @@
+#include "panels/outline_panel.h"
+
+#include <QButtonGroup>
+#include <QCheckBox>
+#include <QHeaderView>
+#include <QSpinBox>
+#include <QTreeWidget>
+#include <algorithm>
+#include <cmath>
+
+#include "panels/form.h"
+#include "panels/keys.h"
+#include "session/session.h"
+
+namespace glisson::panels {
+
+using tools::Command;
+
+namespace {
+
+QString kPa(double value) {
+  return std::isfinite(value) ? QString::number(value, 'f', 2) : QStringLiteral("–");
+}
+
+}  // namespace
+
+OutlinePanel::OutlinePanel(session::Session& session, const Keys& keys, QWidget* parent)
+    : QFrame(parent), session_(session), keys_(keys) {
+  setObjectName(QStringLiteral("sidePanel"));
+  setFixedWidth(300);
+  auto* side = new QVBoxLayout(this);
+  side->setContentsMargins(16, 14, 16, 14);
+  side->setSpacing(8);
+  makeTools(side);
+  makeReadout(side);
+  makeList(side);
+  connect(&session_, &session::Session::statisticsChanged, this, &OutlinePanel::showStatistics);
+  connect(&session_, &session::Session::contoursChanged, this, &OutlinePanel::showOutlines);
+  connect(&session_, &session::Session::toolChanged, this, &OutlinePanel::showTool);
+  connect(&session_, &session::Session::statusChanged, this, &OutlinePanel::showActions);
+  connect(&keys_, &Keys::changed, this, &OutlinePanel::showTool);
+  showTool();
+}
+
+QPushButton* OutlinePanel::commandButton(const char* name, const QString& text, const QString& iconName,
+                                         Command command) {
+  QPushButton* made = button(name, text, iconName, keys_.tip(command));
+  made->setAccessibleName(nameOf(command));
+  connect(made, &QPushButton::clicked, this, [this, command] { emit commandWanted(command); });
+  return made;
+}
+
+void OutlinePanel::makeTools(QVBoxLayout* side) {
+  side->addWidget(labelled(tr("Outline the liver"), "heading"));
+  stateText_ = labelled({}, "faint");
+  stateText_->setObjectName(QStringLiteral("toolState"));
+  stateText_->setMinimumHeight(50);
+  stateText_->setAlignment(Qt::AlignTop);
+  side->addWidget(stateText_);
+  auto* row = new QHBoxLayout;
+  undo_ = commandButton("undoButton", {}, QStringLiteral("undo"), Command::Undo);
+  redo_ = commandButton("redoButton", {}, QStringLiteral("redo"), Command::Redo);
+  delete_ = commandButton("deleteButton", {}, QStringLiteral("delete"), Command::Delete);
+  accept_ = commandButton("acceptButton", tr("Accept"), QStringLiteral("accept"), Command::CloseOrAccept);
+  accept_->setProperty("primary", true);
+  for (QPushButton* b : {undo_, redo_, delete_}) row->addWidget(b);
+  side->addWidget(accept_);
+  side->addLayout(row);
+}
+
+void OutlinePanel::makeReadout(QVBoxLayout* side) {
+  side->addSpacing(8);
+  side->addWidget(section(tr("Stiffness under the outline")));
+  readout_ = labelled({}, "number");
+  readout_->setObjectName(QStringLiteral("liveMean"));
+  side->addWidget(readout_);
+  pooled_ = labelled({}, "faint");
+  pooled_->setObjectName(QStringLiteral("liveReadout"));
+  pooled_->setMinimumHeight(76);
+  pooled_->setAlignment(Qt::AlignTop);
+  side->addWidget(pooled_);
+  cursor_ = labelled({}, "faint");
+  cursor_->setObjectName(QStringLiteral("cursorReadout"));
+  side->addWidget(cursor_);
+  auto* row = new QHBoxLayout;
+  inner_ = new QCheckBox(tr("Inner region"));
+  inner_->setObjectName(QStringLiteral("innerRegion"));
+  inner_->setToolTip(keys_.tip(Command::InnerRoi));
+  erosion_ = new QSpinBox;
+  erosion_->setObjectName(QStringLiteral("erosionPixels"));
+  erosion_->setRange(0, 50);
+  erosion_->setSuffix(tr(" px"));
+  erosion_->setToolTip(tr("Pixels of the elastogram taken off the edge ([ and ])"));
+  row->addWidget(inner_, 1);
+  row->addWidget(erosion_);
+  side->addLayout(row);
+  connect(inner_, &QCheckBox::toggled, this, [this](bool on) {
+    session_.setMeasureSettings({on, session_.measureSettings().erosion_pixels});
+  });
+  connect(erosion_, &QSpinBox::valueChanged, this, [this](int px) {
+    session_.setMeasureSettings({session_.measureSettings().innerRoi, px});
+  });
+  side->addWidget(section(tr("Colour scale")));
+  auto* scales = new QHBoxLayout;
+  auto* group = new QButtonGroup(this);
+  for (const double high : {8.0, 20.0}) {
+    auto* scale =
+        button(high < 10 ? "scale8" : "scale20", tr("0 – %1 kPa").arg(high), {}, keys_.tip(Command::StiffnessScale));
+    scale->setCheckable(true);
+    scale->setChecked(high < 10);
+    group->addButton(scale);
+    scales->addWidget(scale);
+    connect(scale, &QPushButton::clicked, this, [this, high] { emit scaleWanted(high); });
+    (high < 10 ? scale8_ : scale20_) = scale;
+  }
+  side->addLayout(scales);
+}
+
+void OutlinePanel::makeList(QVBoxLayout* side) {
+  side->addSpacing(8);
+  side->addWidget(section(tr("Outlines")));
+  outlines_ = new QTreeWidget;
+  outlines_->setObjectName(QStringLiteral("outlineList"));
+  outlines_->setHeaderLabels({tr("Slice"), tr("Vertices"), tr("State")});
+  outlines_->setRootIsDecorated(false);
+  outlines_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  outlines_->header()->setSectionResizeMode(QHeaderView::Stretch);
+  side->addWidget(outlines_, 1);
+  connect(outlines_, &QTreeWidget::itemClicked, this,
+          [this](QTreeWidgetItem* item) { emit sliceWanted(item->data(0, Qt::UserRole).toInt()); });
+  coverage_ = labelled({}, "faint");
+  coverage_->setObjectName(QStringLiteral("outlineCoverage"));
+  side->addWidget(coverage_);
+  auto* fill = new QHBoxLayout;
+  interpolate_ =
+      commandButton("interpolateButton", tr("Interpolate"), QStringLiteral("interpolate"), Command::Interpolate);
+  acceptAll_ = commandButton("acceptAllButton", tr("Accept all"), QStringLiteral("accept"), Command::AcceptAll);
+  for (QPushButton* b : {interpolate_, acceptAll_}) fill->addWidget(b, 1);
+  side->addLayout(fill);
+  import_ = button("importButton", tr("Import outlines…"), QStringLiteral("import"),
+                   tr("RT Structure Set, contour file or mask (Ctrl+I)"));
+  side->addWidget(import_);
+  connect(import_, &QPushButton::clicked, this, &OutlinePanel::importWanted);
+}
+
+void OutlinePanel::setSlice(int slice) {
+  slice_ = slice;
+  outlines_->clearSelection();
+  showOutlines();
+}
+
+void OutlinePanel::setCursorText(const QString& text) {
+  cursor_->setText(text);
+}
+
+void OutlinePanel::setScale(double high_kPa) {
+  (high_kPa < 10.0 ? scale8_ : scale20_)->setChecked(true);
+}
+
+void OutlinePanel::showStatistics() {
+  const session::LiveStatistics& live = session_.statistics();
+  if (!live.pooled) {
+    readout_->setText(QStringLiteral("–"));
+    pooled_->setText(live.reason);
+    return;
+  }
+  const auto line = [](const elastography::Statistics& s) {
+    return tr("%1 px → %2 after mask, %3 cm², %4 ± %5 kPa (µ)")
+        .arg(static_cast<qulonglong>(s.n_before_mask))
+        .arg(static_cast<qulonglong>(s.n))
+        .arg(s.area_mm2 / 100.0, 0, 'f', 1)
+        .arg(kPa(s.mean_kPa), kPa(s.sd_kPa));
+  };
+  const elastography::Statistics& all = live.pooled->pooled;
+  if (session_.measureSettings().innerRoi)
+    readout_->setToolTip(tr("Inner region, %1 pixels off the edge").arg(session_.measureSettings().erosion_pixels));
+  readout_->setText(tr("%1 ± %2 kPa").arg(kPa(all.mean_kPa), kPa(all.sd_kPa)));
+  QString text = tr("All slices: ") + line(all);
+  if (live.slice) text += QStringLiteral("\n") + tr("This slice: ") + line(*live.slice);
+  pooled_->setText(text);
+}
+
+void OutlinePanel::showOutlines() {
+  outlines_->clear();
+  if (!session_.images().mri) return;
+  const image::Grid& grid = session_.images().mri->grid;
+  struct Row {
+    int slice;
+    QString vertices, state;
+    bool drawn;
+  };
+  std::vector<Row> rows;
+  for (const roi::Polygon& p : session_.contours().polygons) {
+    if (p.points_lps_mm.cols() == 0) continue;
+    const QString state = p.exclude                                    ? tr("left out")
+                          : p.state == roi::PolygonState::Accepted     ? tr("drawn")
+                          : p.state == roi::PolygonState::Interpolated ? tr("interpolated")
+                                                                       : tr("draft");
+    rows.push_back({tools::sliceOf(p, grid), QString::number(p.points_lps_mm.cols()), state,
+                    p.state == roi::PolygonState::Accepted});
+  }
+  const session::OutlineCoverage covered = session_.coverage();
+  for (const int k : covered.empty) rows.push_back({k, QStringLiteral("–"), tr("empty"), false});
+  for (const auto& [k, mark] : session_.contours().marks)
+    rows.push_back(
+        {k, QStringLiteral("–"), mark == commands::SliceMark::NoLiver ? tr("no liver") : tr("no wave"), true});
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.slice > b.slice; });
+  for (const Row& r : rows) {
+    auto* item = new QTreeWidgetItem(outlines_, {QString::number(r.slice + 1), r.vertices, r.state});
+    item->setData(0, Qt::UserRole, r.slice);
+    item->setToolTip(2, r.state);
+    if (r.slice == slice_) {
+      QFont bold = item->font(0);
+      bold.setBold(true);
+      for (int c = 0; c < 3; ++c) item->setFont(c, bold);
+    } else if (!r.drawn) {
+      for (int c = 0; c < 3; ++c) item->setForeground(c, palette().color(QPalette::PlaceholderText));
+    }
+  }
+  QString text;
+  if (!covered.drawn.empty()) {
+    text = tr("%1 drawn, %2 interpolated, %3 empty between them.")
+               .arg(covered.drawn.size())
+               .arg(covered.interpolated.size())
+               .arg(covered.empty.size());
+    if (!covered.empty.empty()) text += QLatin1Char(' ') + tr("A run fills these by shape.");
+  }
+  coverage_->setText(text);
+  showActions();
+}
+
+void OutlinePanel::showActions() {
+  const session::OutlineCoverage covered = session_.coverage();
+  interpolate_->setEnabled(covered.drawn.size() > 1 && covered.empty.size() + covered.interpolated.size() > 0 &&
+                           !session_.busy());
+  acceptAll_->setEnabled(!covered.interpolated.empty());
+}
+
+void OutlinePanel::showTool() {
+  const tools::ToolState state = session_.tool().state();
+  const bool drawing = state == tools::ToolState::Drawing, editing = state == tools::ToolState::Editing;
+  undo_->setEnabled(session_.canUndo());
+  redo_->setEnabled(session_.canRedo());
+  undo_->setToolTip(tr("Undo %1 (%2)").arg(session_.undoText(), keys_.text(tools::Command::Undo)));
+  redo_->setToolTip(tr("Redo %1 (%2)").arg(session_.redoText(), keys_.text(tools::Command::Redo)));
+  accept_->setEnabled(drawing || editing);
+  accept_->setText(drawing ? tr("Close") : tr("Accept"));
+  delete_->setEnabled(session_.tool().selected().has_value());
+  showActions();
+  const QSignalBlocker quietInner(inner_), quietErosion(erosion_);
+  inner_->setChecked(session_.measureSettings().innerRoi);
+  erosion_->setValue(session_.measureSettings().erosion_pixels);
+  switch (state) {
+    case tools::ToolState::Idle:
+      stateText_->setText(
+          session_.tool().mode() == tools::ToolMode::Sculpt
+              ? tr("Drag to push the outline with the disc; [ and ] change its size.")
+              : tr("Click vertices on the MRI, or drag to draw freehand. Click an outline to edit it."));
+      break;
+    case tools::ToolState::Drawing:
+      stateText_->setText(
+          tr("Close on the first vertex, with a right click, a double click or Enter. Backspace takes "
+             "the last vertex back, Esc parks a draft."));
+      break;
+    case tools::ToolState::Editing:
+      stateText_->setText(session_.tool().interpolated()
+                              ? tr("Interpolated between drawn slices. Enter accepts it, correcting it accepts it too; "
+                                   "an outline drawn "
+                                   "on this slice replaces it.")
+                              : tr("Drag vertices to adjust; Ctrl+click adds or deletes one. Enter accepts."));
+      break;
+    case tools::ToolState::Accepted:
+      stateText_->setText(tr("Accepted. It can still be edited; click beside it to draw the next."));
+      break;
+  }
+}
+
+}  // namespace glisson::panels

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <QFrame>
+#include <optional>
+
+#include "tools/keymap.h"
+
+class QCheckBox;
+class QLabel;
+class QPushButton;
+class QSpinBox;
+class QTreeWidget;
+class QVBoxLayout;
+
+namespace glisson::session {
+class Session;
+}
+
+namespace glisson::panels {
+
+class Keys;
+
+/// Right of the images: the state of the tool, stiffness under the outline, the inner region, and the list of slices.
+class OutlinePanel : public QFrame {
+  Q_OBJECT
+ public:
+  OutlinePanel(session::Session& session, const Keys& keys, QWidget* parent = nullptr);
+  void setSlice(int slice);  ///< of the MRI; −1: no image
+  void setCursorText(const QString& text);
+  void setScale(double high_kPa);
+
+ signals:
+  void commandWanted(glisson::tools::Command command);
+  void sliceWanted(int slice);
+  void importWanted();
+  void scaleWanted(double high_kPa);
+
+ private:
+  void makeTools(QVBoxLayout* side);
+  void makeReadout(QVBoxLayout* side);
+  void makeList(QVBoxLayout* side);
+  void showTool();
+  void showStatistics();
+  void showOutlines();
+  void showActions();
+  QPushButton* commandButton(const char* name, const QString& text, const QString& icon, tools::Command command);
+  session::Session& session_;
+  const Keys& keys_;
+  int slice_ = -1;
+  QLabel *stateText_, *readout_, *pooled_, *cursor_, *coverage_;
+  QCheckBox* inner_;
+  QSpinBox* erosion_;
+  QTreeWidget* outlines_;
+  QPushButton *undo_, *redo_, *accept_, *delete_, *import_, *interpolate_, *acceptAll_, *scale8_, *scale20_;
+};
+
+}  // namespace glisson::panels

@@ -1,0 +1,336 @@
+// What keys, buttons and menus of the Segment page do.
+#include <QInputDialog>
+#include <QKeyEvent>
+#include <QMenu>
+#include <cmath>
+
+#include "base/error.h"
+#include "panels/grey_window.h"
+#include "panels/image_layers.h"
+#include "panels/keys.h"
+#include "panels/outline_panel.h"
+#include "panels/segment_page.h"
+#include "roi/contour_stack.h"
+#include "session/session.h"
+#include "views/slice_view.h"
+
+namespace glisson::panels {
+
+using tools::Command;
+using tools::ToolKey;
+using tools::ToolMode;
+
+void SegmentPage::keyDown(QKeyEvent* event) {
+  const std::optional<Command> command = keys_.commandFor(*event);
+  if (!command) return;
+  event->accept();
+  if (*command == Command::HideOverlays) {
+    mri_->setOverlaysHidden(true);
+    mre_->setOverlaysHidden(true);
+  } else {
+    run(*command);
+  }
+}
+
+void SegmentPage::keyUp(QKeyEvent* event) {
+  if (keys_.commandFor(*event) != Command::HideOverlays) return;
+  mri_->setOverlaysHidden(false);
+  mre_->setOverlaysHidden(false);
+}
+
+void SegmentPage::run(Command command) {
+  if (command == Command::Help) {
+    emit helpWanted();
+    return;
+  }
+  if (!mri_->hasVolume()) return;
+  if (!runOutline(command)) runView(command);
+  session_.toolMoved();
+  showTool();
+}
+
+bool SegmentPage::runOutline(Command command) {
+  tools::PolygonTool& tool = session_.tool();
+  const auto key = [&](ToolKey k) { session_.apply(tool.key(k, mri_->plane())); };
+  switch (command) {
+    case Command::Polygon:
+      take(Hand::Outline, ToolMode::Polygon);
+      return true;
+    case Command::Freehand:
+      take(Hand::Outline, ToolMode::Freehand);
+      return true;
+    case Command::Sculpt:
+      take(Hand::Outline, ToolMode::Sculpt);
+      return true;
+    case Command::CloseOrAccept:
+      key(ToolKey::Enter);
+      return true;
+    case Command::CloseAndAccept:
+      key(ToolKey::CtrlEnter);
+      return true;
+    case Command::LastVertex:
+      hand_ == Hand::Measure ? measure_.removeLast() : key(ToolKey::Backspace);
+      return true;
+    case Command::Delete:
+      hand_ == Hand::Measure ? measure_.removeLast() : key(ToolKey::Delete);
+      return true;
+    case Command::Park:
+      hand_ == Hand::Measure ? measure_.cancel() : key(ToolKey::Escape);
+      return true;
+    case Command::Split:
+      session_.apply(tool.split());
+      return true;
+    case Command::Trim:
+      session_.apply(tool.trim());
+      return true;
+    case Command::Undo:
+      session_.undo();
+      return true;
+    case Command::Redo:
+      session_.redo();
+      return true;
+    case Command::SelectAll:
+      tool.selectAll(mri_->plane());
+      return true;
+    case Command::Deselect:
+      tool.deselect();
+      return true;
+    case Command::Copy:
+      session_.copyOutlines();
+      return true;
+    case Command::Paste:
+      session_.pasteOutlines();
+      return true;
+    case Command::PasteBetween:
+      session_.pasteBetween();
+      return true;
+    case Command::Include:
+    case Command::Exclude:
+      session_.apply(tool.setKind(command == Command::Exclude));
+      return true;
+    case Command::Interpolate:
+      session_.interpolateOutlines();
+      return true;
+    case Command::AcceptAll:
+      session_.acceptInterpolated();
+      return true;
+    case Command::Propose:
+      session_.propose(cursor_.value_or(mri_->centre_lps()));
+      return true;
+    case Command::CompareReaders:
+      session_.secondReader().polygons.empty() ? emit secondReaderWanted() : session_.compareReaders();
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool SegmentPage::runView(Command command) {
+  switch (command) {
+    case Command::Measure:
+      take(Hand::Measure, session_.tool().mode());
+      return true;
+    case Command::WindowLevel:
+      take(Hand::Window, session_.tool().mode());
+      return true;
+    case Command::NudgeLeft:
+    case Command::NudgeRight:
+      nudge({command == Command::NudgeLeft ? -0.1 : 0.1, 0.0}, 0);
+      return true;
+    case Command::NudgeUp:
+    case Command::NudgeDown:
+      nudge({0.0, command == Command::NudgeUp ? -0.1 : 0.1}, command == Command::NudgeUp ? 1 : -1);
+      return true;
+    case Command::NudgeLeftFar:
+    case Command::NudgeRightFar:
+      nudge({command == Command::NudgeLeftFar ? -1.0 : 1.0, 0.0}, 0);
+      return true;
+    case Command::NudgeUpFar:
+    case Command::NudgeDownFar:
+      nudge({0.0, command == Command::NudgeUpFar ? -1.0 : 1.0}, 0);
+      return true;
+    case Command::FirstSlice:
+      mri_->setSlice(0);
+      return true;
+    case Command::LastSlice:
+      mri_->setSlice(mri_->sliceCount() - 1);
+      return true;
+    case Command::SliceUp:
+    case Command::SliceDown:
+      mri_->setSlice(mri_->slice() + (command == Command::SliceUp ? 1 : -1));
+      return true;
+    case Command::NextPending:
+      if (const auto next = session_.nextPending(mri_->slice()))
+        mri_->setSlice(*next);
+      else
+        emit session_.message(tr("Every slice is outlined or marked."));
+      return true;
+    case Command::MarkNoLiver:
+    case Command::MarkNoWave:
+      session_.toggleMark(command == Command::MarkNoLiver ? commands::SliceMark::NoLiver : commands::SliceMark::NoWave);
+      return true;
+    case Command::InnerRoi:
+      inner(0);
+      return true;
+    case Command::InnerLess:
+    case Command::InnerMore:
+      inner(command == Command::InnerMore ? 1 : -1);
+      return true;
+    case Command::AutoWindow:
+      preset(0);
+      return true;
+    case Command::Preset1:
+    case Command::Preset2:
+    case Command::Preset3:
+    case Command::Preset4:
+    case Command::Preset5:
+      preset(1 + static_cast<int>(command) - static_cast<int>(Command::Preset1));
+      return true;
+    case Command::LinkViews:
+      linked_ = !linked_;
+      linkPlace(mri_, mre_);
+      emit session_.message(linked_ ? tr("The views move together.") : tr("The views move on their own."));
+      return true;
+    case Command::StiffnessScale: {
+      const double high = layers_->stiffnessScale() < 10.0 ? 20.0 : 8.0;
+      layers_->setStiffnessScale(high);
+      panel_->setScale(high);
+      return true;
+    }
+    case Command::PlayWave:
+      layers_->togglePlay();
+      return true;
+    default:
+      return false;
+  }
+}
+
+void SegmentPage::take(Hand hand, ToolMode mode) {
+  hand_ = hand;
+  measure_.cancel();
+  mri_->setLeftDragWindows(hand == Hand::Window);
+  mre_->setLeftDragWindows(hand == Hand::Window);
+  // Another tool parks an unfinished outline.
+  session_.apply(hand == Hand::Outline ? session_.tool().setMode(mode, mri_->plane())
+                                       : session_.tool().leaveSlice(mri_->plane()));
+}
+
+void SegmentPage::nudge(const Eigen::Vector2d& pixels, int slices) {
+  const tools::Acts acts = session_.tool().nudge(pixels, mri_->plane());
+  if (!acts.empty())
+    session_.apply(acts);
+  else if (slices != 0)
+    mri_->setSlice(mri_->slice() + slices);
+}
+
+void SegmentPage::inner(int change) {
+  session::MeasureSettings settings = session_.measureSettings();
+  if (change == 0) {
+    settings.innerRoi = !settings.innerRoi;
+  } else if (session_.tool().mode() == ToolMode::Sculpt && hand_ == Hand::Outline) {
+    session_.tool().setBrushRadius(session_.tool().brushRadius() * (change > 0 ? 1.25 : 0.8));
+    return;
+  } else {
+    settings.erosion_pixels += change;
+  }
+  session_.setMeasureSettings(settings);
+}
+
+void SegmentPage::preset(int number) {
+  if (!mri_->hasVolume()) return;
+  const auto whole = windowOf(*mri_->volume().values);
+  const auto [low, high] = number == 0 ? whole : presetOf(number - 1, whole);
+  mri_->setWindow(low, high);
+}
+
+void SegmentPage::showMenu(const QPoint& at) {
+  auto* popup = new QMenu(this);
+  popup->setAttribute(Qt::WA_DeleteOnClose);
+  QMenu& menu = *popup;
+  menu.setObjectName(QStringLiteral("outlineMenu"));
+  const bool selected = session_.tool().selected().has_value();
+  const auto add = [&](Command command, bool enabled) {
+    QAction* action = menu.addAction(nameOf(command) + QLatin1Char('\t') + keys_.text(command));
+    action->setEnabled(enabled);
+    connect(action, &QAction::triggered, this, [this, command] { run(command); });
+  };
+  add(Command::CloseOrAccept, session_.tool().state() == tools::ToolState::Editing);
+  add(Command::Delete, selected);
+  add(Command::Split, selected);
+  add(Command::Trim, selected);
+  menu.addSeparator();
+  add(Command::Include, selected);
+  add(Command::Exclude, selected);
+  menu.addSeparator();
+  add(Command::Copy, true);
+  add(Command::Paste, session_.canPaste());
+  add(Command::PasteBetween, session_.canPaste());
+  QAction* copyTo = menu.addAction(tr("Copy to slices…"));
+  copyTo->setObjectName(QStringLiteral("copyToSlices"));
+  connect(copyTo, &QAction::triggered, this, &SegmentPage::askCopyTo);
+  menu.addSeparator();
+  add(Command::Propose, true);
+  add(Command::MarkNoLiver, true);
+  add(Command::MarkNoWave, true);
+  if (selected) {
+    menu.addSeparator();
+    const std::size_t polygon = *session_.tool().selected();
+    connect(menu.addAction(tr("Properties and statistics…")), &QAction::triggered, this,
+            [this, polygon] { showProperties(polygon); });
+  }
+  menu.popup(at);
+}
+
+void SegmentPage::askCopyTo() {
+  auto* dialog = new QInputDialog(this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setWindowTitle(tr("Copy to slices"));
+  dialog->setLabelText(tr("Copy to all empty slices up to slice:"));
+  dialog->setInputMode(QInputDialog::IntInput);
+  dialog->setIntRange(1, mri_->sliceCount());
+  dialog->setIntValue(mri_->slice() + 1);
+  connect(dialog, &QInputDialog::intValueSelected, this, [this](int last) {
+    session_.copyOutlines();
+    session_.pasteTo(std::min(last - 1, mri_->slice()), std::max(last - 1, mri_->slice()));
+  });
+  dialog->open();
+}
+
+void SegmentPage::showProperties(std::size_t index) {
+  if (index >= session_.contours().polygons.size()) return;
+  const roi::Polygon& polygon = session_.contours().polygons[index];
+  roi::ContourStack alone;
+  alone.polygons = {polygon};
+  alone.polygons.front().state = roi::PolygonState::Accepted;
+  alone.polygons.front().exclude = false;
+  QString area = tr("none");
+  try {
+    area = tr("%1 cm²").arg(roi::area_mm2(alone) / 100.0, 0, 'f', 2);
+  } catch (const Error& e) {
+    area = QString::fromUtf8(e.what());
+  }
+  const auto& live = session_.statistics();
+  QString stiffness = live.reason;
+  if (live.slice)
+    stiffness = tr("%1 ± %2 kPa (µ), %3 of %4 pixels count")
+                    .arg(live.slice->mean_kPa, 0, 'f', 2)
+                    .arg(live.slice->sd_kPa, 0, 'f', 2)
+                    .arg(live.slice->n)
+                    .arg(live.slice->n_before_mask);
+  const QString state = polygon.exclude                                    ? tr("left out")
+                        : polygon.state == roi::PolygonState::Accepted     ? tr("accepted")
+                        : polygon.state == roi::PolygonState::Interpolated ? tr("interpolated")
+                                                                           : tr("draft");
+  auto* dialog = new QInputDialog(this);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setObjectName(QStringLiteral("outlineProperties"));
+  dialog->setWindowTitle(tr("Outline on slice %1").arg(mri_->slice() + 1));
+  dialog->setLabelText(tr("%1 vertices, %2\nArea: %3\nStiffness on this slice: %4\n\nName of the region:")
+                           .arg(polygon.points_lps_mm.cols())
+                           .arg(state, area, stiffness));
+  dialog->setTextValue(QString::fromStdString(session_.contours().name));
+  connect(dialog, &QInputDialog::textValueSelected, &session_, &session::Session::rename);
+  dialog->open();
+}
+
+}  // namespace glisson::panels

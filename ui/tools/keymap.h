@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace glisson::tools {
+
+/// Everything a key can do in the views. The sheet under F1, tooltips and the key settings come from keyTable().
+enum class Command {
+  Polygon,
+  Freehand,
+  Sculpt,
+  Measure,
+  WindowLevel,
+  CloseOrAccept,
+  CloseAndAccept,
+  LastVertex,
+  Delete,
+  Split,
+  Trim,
+  Park,
+  Undo,
+  Redo,
+  SelectAll,
+  Deselect,
+  Copy,
+  Paste,
+  PasteBetween,
+  NudgeLeft,
+  NudgeRight,
+  NudgeUp,
+  NudgeDown,
+  NudgeLeftFar,
+  NudgeRightFar,
+  NudgeUpFar,
+  NudgeDownFar,
+  FirstSlice,
+  LastSlice,
+  SliceUp,
+  SliceDown,
+  NextPending,
+  MarkNoLiver,
+  MarkNoWave,
+  Include,
+  Exclude,
+  InnerRoi,
+  InnerLess,
+  InnerMore,
+  HideOverlays,
+  AutoWindow,
+  Preset1,
+  Preset2,
+  Preset3,
+  Preset4,
+  Preset5,
+  LinkViews,
+  StiffnessScale,
+  Interpolate,
+  AcceptAll,
+  Propose,
+  CompareReaders,
+  PlayWave,
+  Help
+};
+inline constexpr std::size_t commandCount = static_cast<std::size_t>(Command::Help) + 1;
+
+struct KeyEntry {
+  Command command;
+  const char* id;     ///< stable name, for settings
+  const char* keys;   ///< as shipped; alternatives parted by spaces: "PgUp", "Ctrl+Shift+V"
+  const char* group;  ///< heading of the sheet
+  const char* what;   ///< a few words
+};
+
+/// One row per command, in the order of Command.
+std::span<const KeyEntry> keyTable();
+const KeyEntry& entryOf(Command command);
+/// The command of a stable name.
+std::optional<Command> commandNamed(std::string_view id);
+
+/// What the mouse does, by the state of the tool; empty = nothing.
+struct GestureEntry {
+  const char *gesture, *idle, *drawing, *editing;
+};
+std::span<const GestureEntry> gestureTable();
+
+}  // namespace glisson::tools

@@ -1,0 +1,205 @@
+// Clicks, keys and what parks an outline.
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "tools/outline.h"
+#include "tools/polygon_tool.h"
+
+namespace glisson::tools {
+
+namespace {
+
+Eigen::Matrix3Xd withPoint(const Eigen::Matrix3Xd& points, Eigen::Index at, const Eigen::Vector3d& p) {
+  Eigen::Matrix3Xd longer(3, points.cols() + 1);
+  longer.leftCols(at) = points.leftCols(at);
+  longer.col(at) = p;
+  longer.rightCols(points.cols() - at) = points.rightCols(points.cols() - at);
+  return longer;
+}
+
+std::vector<Eigen::Index> allOf(const Eigen::Matrix3Xd& points) {
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(points.cols()));
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  return all;
+}
+
+}  // namespace
+
+Acts PolygonTool::click(const Pointer& at, const SlicePlane& plane) {
+  if (state() == ToolState::Drawing) {
+    if (onFirstVertex(at, plane)) return close(plane, false);
+    past_.push_back(points_);
+    future_.clear();
+    addVertex(snapped(at, plane));
+    return {};
+  }
+  if (pressedHit_ && pressedHit_->kind != Hit::Kind::Inside) return clickHandle(at, plane);
+  const bool insideAny = pressedHit_.has_value();
+  if (selected_ && !(at.modifiers.shift && insideAny)) {
+    if (insideAny)
+      select(pressedHit_->polygon, allOf(contours_.polygons[pressedHit_->polygon].points_lps_mm));
+    else
+      select(std::nullopt);
+    return {};
+  }
+  // Idle, or Shift inside a region: the first vertex (of a hole, by the even-odd rule, where it lies inside a region).
+  select(std::nullopt);
+  past_.push_back(points_);
+  future_.clear();
+  addVertex(plane.toLps(at.px));
+  if (insideAny)
+    message_ = contours_.polygons[pressedHit_->polygon].state == roi::PolygonState::Interpolated
+                   ? "Once accepted, this outline replaces the interpolated ones of the slice."
+                   : "An outline inside a region becomes a hole.";
+  return {};
+}
+
+// A vertex or an edge of an outline that is there.
+Acts PolygonTool::clickHandle(const Pointer& at, const SlicePlane& plane) {
+  if (at.modifiers.ctrl) {
+    const std::size_t index = pressedHit_->polygon;
+    const Eigen::Matrix3Xd& points = contours_.polygons[index].points_lps_mm;
+    if (pressedHit_->kind == Hit::Kind::Edge) {
+      select(index, {pressedHit_->vertex + 1});
+      return {
+          ChangePoints{index, withPoint(points, pressedHit_->vertex + 1, plane.toLps(at.px)), PointsChange::Insert}};
+    }
+    select(index, {pressedHit_->vertex});
+    return removeSelection();
+  }
+  const Eigen::Index n = contours_.polygons[pressedHit_->polygon].points_lps_mm.cols();
+  std::vector<Eigen::Index> clicked{pressedHit_->vertex};
+  if (pressedHit_->kind == Hit::Kind::Edge) clicked.push_back((pressedHit_->vertex + 1) % n);
+  if (at.modifiers.shift && selected_ == pressedHit_->polygon) {
+    for (const Eigen::Index v : clicked) {
+      const auto found = std::find(vertices_.begin(), vertices_.end(), v);
+      if (found == vertices_.end())
+        vertices_.push_back(v);
+      else
+        vertices_.erase(found);
+    }
+  } else {
+    select(pressedHit_->polygon, clicked);
+  }
+  return {};
+}
+
+Acts PolygonTool::doubleClick(const Pointer& at, const SlicePlane& plane) {
+  // The press and release before it were clicks already: in Drawing they added the last vertex.
+  if (state() == ToolState::Drawing) {
+    const bool justBegun = points_.cols() == 1 && (plane.toPixel(points_.col(0)) - at.px).norm() <= reach::hit_px;
+    const std::optional<Hit> under = justBegun ? hitTest(at.px, plane) : std::nullopt;
+    if (under) {
+      // Begun by the first click of this very double-click, on an outline: its properties were meant.
+      clearDrawing();
+      select(under->polygon, allOf(contours_.polygons[under->polygon].points_lps_mm));
+      properties_ = under->polygon;
+      message_.clear();
+      return {};
+    }
+    return points_.cols() < 3 ? Acts{} : close(plane, false);
+  }
+  const std::optional<Hit> hit = hitTest(at.px, plane);
+  if (state() == ToolState::Editing && hit && hit->polygon == *selected_) return accept(plane);
+  if (hit) {
+    select(hit->polygon, allOf(contours_.polygons[hit->polygon].points_lps_mm));
+    properties_ = hit->polygon;
+  }
+  return {};
+}
+
+Acts PolygonTool::rightClick(const Pointer& at, const SlicePlane& plane) {
+  message_.clear();
+  if (state() == ToolState::Drawing) return close(plane, false);
+  const std::optional<Hit> hit = hitTest(at.px, plane);
+  if (hit && selected_ != hit->polygon) {
+    const bool whole = hit->kind == Hit::Kind::Inside;
+    select(hit->polygon,
+           whole ? allOf(contours_.polygons[hit->polygon].points_lps_mm) : std::vector<Eigen::Index>{hit->vertex});
+  }
+  return {};
+}
+
+Acts PolygonTool::key(ToolKey key, const SlicePlane& plane) {
+  message_.clear();
+  const ToolState now = state();
+  switch (key) {
+    case ToolKey::Enter:
+      if (now == ToolState::Drawing) return close(plane, false);
+      if (now == ToolState::Editing) return accept(plane);
+      return {};
+    case ToolKey::CtrlEnter:
+      if (now == ToolState::Drawing) return close(plane, true);
+      if (now == ToolState::Editing) return accept(plane);
+      return {};
+    case ToolKey::Backspace:
+      if (now == ToolState::Drawing) {
+        past_.push_back(points_);
+        future_.clear();
+        points_.conservativeResize(3, points_.cols() - 1);
+        if (points_.cols() == 0) clearDrawing();
+        updateCrossing(plane);
+      } else if (now == ToolState::Editing && !interpolated()) {
+        // Takes a draft up again where it was left.
+        const std::size_t index = *selected_;
+        select(std::nullopt);
+        points_ = contours_.polygons[index].points_lps_mm;
+        if (mode_ == ToolMode::Sculpt) mode_ = ToolMode::Polygon;
+        return {RemovePolygon{index}};
+      }
+      return {};
+    case ToolKey::Delete:
+      return now == ToolState::Drawing ? Acts{} : removeSelection();
+    case ToolKey::Escape:
+      if (now == ToolState::Drawing) {
+        Acts parked = leaveSlice(plane);
+        selected_ = contours_.polygons.size();  // the draft, once it is added: a second Esc discards it
+        return parked;
+      }
+      if (now == ToolState::Editing && !interpolated()) {
+        const std::size_t index = *selected_;
+        select(std::nullopt);
+        message_ = "Draft discarded; undo brings it back.";
+        return {RemovePolygon{index}};
+      }
+      select(std::nullopt);
+      return {};
+  }
+  return {};
+}
+
+Acts PolygonTool::leaveSlice(const SlicePlane& plane) {
+  Acts acts;
+  if (points_.cols() > 0) {
+    acts.push_back(AddPolygon{polygonOf(plane, roi::PolygonState::Draft)});
+    message_ = "Outline parked as a draft; click it to go on, Esc to discard.";
+  }
+  drag_ = Drag::None;
+  properties_.reset();
+  box_.reset();
+  preview_.resize(3, 0);
+  hover_.reset();
+  select(std::nullopt);
+  clearDrawing();
+  return acts;
+}
+
+bool PolygonTool::undoDrawing() {
+  if (state() != ToolState::Drawing || past_.empty()) return false;
+  future_.push_back(points_);
+  points_ = past_.back();
+  past_.pop_back();
+  crosses_ = false;
+  return true;
+}
+
+bool PolygonTool::redoDrawing() {
+  if (future_.empty()) return false;
+  past_.push_back(points_);
+  points_ = future_.back();
+  future_.pop_back();
+  return true;
+}
+
+}  // namespace glisson::tools
