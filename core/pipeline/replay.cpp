@@ -30,13 +30,19 @@ Json readJson(const std::filesystem::path& file, const char* what) {
   }
 }
 
-/// The path as it is below the root, or the file or folder of its name there.
+/// The longest end of the path that is there below the root ("moved/mri/7" for ".../mri/7"); never one beside it.
 void lookBelow(const std::filesystem::path& root, Json& holder, const char* key) {
   if (!holder.is_object() || !holder.contains(key) || !holder[key].is_string()) return;
-  const std::filesystem::path said = holder[key].get<std::string>();
-  const std::filesystem::path name = said.has_filename() ? said.filename() : said.parent_path().filename();
-  std::filesystem::path found = root / name;
-  if (said.is_relative() && std::filesystem::exists(root / said)) found = root / said;
+  std::vector<std::filesystem::path> parts;
+  for (const auto& part : std::filesystem::path(holder[key].get<std::string>()).lexically_normal().relative_path())
+    if (!part.empty() && part != "..") parts.push_back(part);
+  if (parts.empty()) return;
+  std::filesystem::path found;
+  for (auto first = parts.begin(); first != parts.end(); ++first) {
+    found = root;
+    for (auto part = first; part != parts.end(); ++part) found /= *part;
+    if (std::filesystem::exists(found)) break;
+  }
   holder[key] = std::filesystem::absolute(found).generic_string();
 }
 
