@@ -47,13 +47,6 @@ PrivateFolder::~PrivateFolder() {
   fs::remove_all(path_, ignored);
 }
 
-std::string withoutPaths(const std::string& sceneJson) {
-  Json j = Json::parse(sceneJson);
-  for (const char* key : {"mri", "mre", "roi"})
-    if (j["geometry"].contains(key)) j["geometry"][key] = "(file)";
-  return j.dump(1);
-}
-
 std::string anonymous(std::string message, const fs::path& folder, const std::string& id) {
   const std::string program = "glisson-cli: ";
   if (message.rfind(program, 0) == 0) message.erase(0, program.size());

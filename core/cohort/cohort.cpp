@@ -35,7 +35,7 @@ Patient prepare(const PatientFolder& place, const std::optional<std::string>& sc
   } catch (const BadInput& e) {
     p.refused = detail::anonymous(e.what(), place.folder, place.id);
   }
-  const std::string all = digestOfFolder(place.folder) + (p.scene.empty() ? "" : detail::withoutPaths(p.scene)) +
+  const std::string all = digestOfFolder(place.folder) + (p.scene.empty() ? "" : withoutPaths(p.scene)) +
                           (sceneTemplate ? *sceneTemplate : "") + version();
   p.key = sha256(all.data(), all.size());
   return p;
@@ -162,7 +162,7 @@ void finish(CohortResult& result, detail::Summary& summary, const std::map<std::
             const CohortOptions& options, const Progress& progress) {
   for (const CaseRecord& r : summary.records)
     if (r.outcome.status == CaseOutcome::Status::Done && summary.sceneParameters.empty() && scenes.count(r.outcome.id))
-      summary.sceneParameters = detail::withoutPaths(scenes.at(r.outcome.id));
+      summary.sceneParameters = withoutPaths(scenes.at(r.outcome.id));
   detail::studyChosen(summary, scenes, options, progress);
   const std::vector<fs::path> files = detail::writeSummary(summary, options, result.json);
   result.files.insert(result.files.end(), files.begin(), files.end());

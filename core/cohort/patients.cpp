@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -79,7 +80,23 @@ std::string readText(const fs::path& file) {
   return text.str();
 }
 
+void eachPath(Json& j, const std::function<void(Json&)>& fn) {
+  for (auto& [key, value] : j.items()) {
+    if (value.is_structured())
+      eachPath(value, fn);
+    else if (value.is_string() &&
+             (key == "mri" || key == "mre" || key == "roi" || key == "file" || key == "map" || key == "mask"))
+      fn(value);
+  }
+}
+
 }  // namespace
+
+std::string withoutPaths(const std::string& sceneJson) {
+  Json j = Json::parse(sceneJson);
+  eachPath(j, [](Json& path) { path = "(file)"; });
+  return j.dump(1);
+}
 
 std::vector<PatientFolder> findPatients(const fs::path& cohort) {
   if (!fs::is_directory(cohort))
@@ -135,7 +152,13 @@ std::string sceneOf(const fs::path& folder, const std::optional<std::string>& sc
   j["outputs"] = Json::array();
   if (!j.contains("compare")) j["compare"] = {{"against", "atlas"}};
   // Read once, so that a bad scene is refused here and every default is written out.
-  return pipeline::toJson(pipeline::parseScene(j.dump(), folder));
+  Json whole = Json::parse(pipeline::toJson(pipeline::parseScene(j.dump(), folder)));
+  // The scene is run from another folder than the patient's.
+  eachPath(whole, [&](Json& path) {
+    const fs::path p = path.get<std::string>();
+    if (p.is_relative()) path = fs::absolute(folder / p).lexically_normal().string();
+  });
+  return whole.dump(2);
 }
 
 }  // namespace glisson::cohort

@@ -34,4 +34,7 @@ PatientFiles findFiles(const std::filesystem::path& folder);
 /// sceneTemplate: text of a scene whose geometry is replaced. Throws BadInput.
 std::string sceneOf(const std::filesystem::path& folder, const std::optional<std::string>& sceneTemplate);
 
+/// The scene without its paths: what may stand in a result, and what the key of a result is made of.
+std::string withoutPaths(const std::string& sceneJson);
+
 }  // namespace glisson::cohort

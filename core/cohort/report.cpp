@@ -166,6 +166,19 @@ std::string summaryJson(const Summary& s) {
   return j.dump(1) + "\n";
 }
 
+/// One row per value; a list of plain values is one row.
+void flatten(const Json& j, const std::string& path, std::vector<std::pair<std::string, std::string>>& rows) {
+  const bool list = j.is_array() && std::none_of(j.begin(), j.end(), [](const Json& x) { return x.is_structured(); });
+  if (!j.is_structured() || list) {
+    rows.emplace_back(path, j.is_string() ? j.get<std::string>() : j.dump());
+    return;
+  }
+  for (const auto& [key, value] : j.items()) {
+    const std::string step = j.is_array() ? std::to_string(std::stoi(key) + 1) : key;
+    if (key != "schema" && key != "outputs") flatten(value, path.empty() ? step : path + " " + step, rows);
+  }
+}
+
 void methods(report::HtmlReport& page, const Summary& s) {
   page.heading("Methods");
   page.paragraph(
@@ -177,8 +190,10 @@ void methods(report::HtmlReport& page, const Summary& s) {
       "the "
       "atlas stiffness, and the two displacements were compared over the whole liver and at the retractor.");
   if (!s.sceneParameters.empty()) {
-    page.paragraph("Parameters of the retraction (first patient that is left; files are not named):");
-    page.paragraph(s.sceneParameters);
+    page.paragraph("Parameters of the retraction (of the first patient that is left; files are not named):");
+    std::vector<std::pair<std::string, std::string>> rows;
+    flatten(Json::parse(s.sceneParameters), "", rows);
+    page.table(rows);
   }
 }
 
@@ -272,7 +287,8 @@ std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& option
     }
   }
 
-  if (!s.sensitivity.empty()) {
+  if (std::any_of(s.sensitivity.begin(), s.sensitivity.end(),
+                  [&](const SensitivityRow& r) { return r.variation != s.sensitivity.front().variation; })) {
     page.heading("Sensitivity to what the study leaves open");
     const render::BoxPlot chart = sensitivityChart(s.sensitivity, defaults::clinicallySignificant.mm());
     if (!chart.boxes.empty())

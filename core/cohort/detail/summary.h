@@ -59,9 +59,6 @@ class PrivateFolder {
   std::filesystem::path path_;
 };
 
-/// The scene without its paths: what may stand in a result, and what the key of a result is made of.
-std::string withoutPaths(const std::string& sceneJson);
-
 /// A command's last message without the program's name, the patient's folder and its name.
 std::string anonymous(std::string message, const std::filesystem::path& folder, const std::string& id);
 

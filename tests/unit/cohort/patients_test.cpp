@@ -78,7 +78,7 @@ TEST(Patients, GetThePapersRetractionOrTheTemplate) {
   EXPECT_THAT(other, Not(HasSubstr("overlay")));
   EXPECT_THROW(sceneOf(folder.path(), R"({"schema": "glisson/scene/1", "geometry": {}, "surprise": 1})"), BadInput);
   // What may stand in a result says nothing about where the files are.
-  EXPECT_THAT(detail::withoutPaths(own), Not(HasSubstr(folder.path().string())));
+  EXPECT_THAT(withoutPaths(own), Not(HasSubstr(folder.path().string())));
 }
 
 TEST(Variations, ChangeOneAssumptionEach) {
