@@ -2,6 +2,7 @@
 #include <QCommandLineParser>
 #include <QLocale>
 #include <QTimer>
+#include <QTranslator>
 #include <array>
 #include <iostream>
 
@@ -29,6 +30,7 @@ int main(int argc, char** argv) {
   QApplication::setApplicationDisplayName(QStringLiteral("Glisson"));
   QApplication::setApplicationVersion(QString::fromStdString(glisson::version()));
   QApplication::setDesktopFileName(QStringLiteral("glisson"));
+  const QLocale system = QLocale::system();
   // Numbers are shown and typed with a point everywhere, as in the scene files.
   QLocale::setDefault(QLocale::c());
 
@@ -37,7 +39,8 @@ int main(int argc, char** argv) {
                                    QLatin1String(glisson::researchUseOnly) + QLatin1Char('.'));
   parser.addHelpOption();
   parser.addVersionOption();
-  parser.addPositionalArgument(QStringLiteral("folder"), QStringLiteral("DICOM folder to open."),
+  parser.addPositionalArgument(QStringLiteral("folder"),
+                               QStringLiteral("DICOM folder, DICOMDIR, ZIP archive or case.json to open."),
                                QStringLiteral("[folder]"));
   const QCommandLineOption synthetic(QStringLiteral("synthetic"), QStringLiteral("Open the synthetic patient."));
   const QCommandLineOption theme(QStringLiteral("theme"), QStringLiteral("dark (default) or light."),
@@ -53,7 +56,9 @@ int main(int argc, char** argv) {
   const QCommandLineOption screenshot(QStringLiteral("screenshot"),
                                       QStringLiteral("Save a picture of the window as PNG and quit."),
                                       QStringLiteral("file"));
-  parser.addOptions({synthetic, theme, screenshot, step, slice, outlines, run});
+  const QCommandLineOption language(QStringLiteral("language"),
+                                    QStringLiteral("en or de; otherwise that of the desktop."), QStringLiteral("code"));
+  parser.addOptions({synthetic, theme, language, screenshot, step, slice, outlines, run});
   parser.process(app);
   const std::optional<Step> wantedStep = stepNamed(parser.value(step));
   const bool light = parser.value(theme) == QLatin1String("light");
@@ -68,6 +73,10 @@ int main(int argc, char** argv) {
     return 2;
   }
 
+  QTranslator translator;
+  const QLocale wanted = parser.isSet(language) ? QLocale(parser.value(language)) : system;
+  if (translator.load(wanted, QStringLiteral("glisson"), QStringLiteral("_"), QStringLiteral(":/translations")))
+    QApplication::installTranslator(&translator);
   glisson::panels::applyTheme(light ? glisson::panels::Theme::Light : glisson::panels::Theme::Dark);
   glisson::panels::MainWindow window;
   window.show();

@@ -89,6 +89,7 @@ void OutlinePanel::makeReadout(QVBoxLayout* side) {
   erosion_ = new QSpinBox;
   erosion_->setObjectName(QStringLiteral("erosionPixels"));
   erosion_->setRange(0, 50);
+  erosion_->setButtonSymbols(QAbstractSpinBox::NoButtons);  // wheel and arrow keys step it
   erosion_->setSuffix(tr(" px"));
   erosion_->setToolTip(tr("Pixels of the elastogram taken off the edge ([ and ])"));
   row->addWidget(inner_, 1);

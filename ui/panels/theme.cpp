@@ -52,6 +52,8 @@ QString styleSheet(const Colours& c) {
     QSpinBox, QDoubleSpinBox, QLineEdit { background: %base; border: 1px solid %border; border-radius: 5px;
       padding: 3px 6px; min-height: 20px; selection-background-color: %accent; }
     QSpinBox:focus, QDoubleSpinBox:focus { border-color: %accent; }
+    QCheckBox::indicator { width: 14px; height: 14px; border: 1px solid %faint; border-radius: 3px; background: %base; }
+    QCheckBox::indicator:checked { background: %accent; border-color: %accent; }
     QTreeWidget::item { padding: 4px 5px; }
     QComboBox QAbstractItemView { background: %raised; border: 1px solid %border; selection-background-color: %accent; }
     QTableWidget, QTreeWidget, QListWidget, QPlainTextEdit, QTextBrowser { background: %base; border: 1px solid %border;

@@ -17,23 +17,31 @@
 namespace glisson::views {
 
 SceneView::SceneView(QWidget* parent)
-    : QWidget(parent), widget_(new VtkWidget(this)), hint_(new QLabel(this)), layout_(new QStackedLayout(this)) {
+    : QWidget(parent), hint_(new QLabel(this)), layout_(new QStackedLayout(this)) {
   layout_->setContentsMargins(0, 0, 0, 0);
   hint_->setAlignment(Qt::AlignCenter);
   hint_->setWordWrap(true);
   hint_->setObjectName(QStringLiteral("viewHint"));
   layout_->addWidget(hint_);
-  layout_->addWidget(widget_);
-  widget_->setObjectName(QStringLiteral("vtkWidget"));
-  widget_->renderer()->SetBackground(0.063, 0.071, 0.086);
-  connect(widget_, &VtkWidget::rendered, this, &SceneView::rendered);
 }
 
 void SceneView::setHint(const QString& hint) {
   hint_->setText(hint);
 }
 
+// An OpenGL widget makes the whole window be put together by OpenGL, which costs every repaint of the images tens of
+// milliseconds where a program draws for the graphics card: it comes only with the first scene.
+void SceneView::makeWidget() {
+  if (widget_) return;
+  widget_ = new VtkWidget(this);
+  widget_->setObjectName(QStringLiteral("vtkWidget"));
+  widget_->renderer()->SetBackground(0.063, 0.071, 0.086);
+  connect(widget_, &VtkWidget::rendered, this, &SceneView::rendered);
+  layout_->addWidget(widget_);
+}
+
 void SceneView::setScene(std::shared_ptr<const render::RetractionScene> scene) {
+  if (scene) makeWidget();
   scene_ = std::move(scene);
   layout_->setCurrentWidget(scene_ ? static_cast<QWidget*>(widget_) : hint_);
   populate(false);

@@ -38,6 +38,7 @@ class SceneView : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
+  void makeWidget();
   void populate(bool keepCamera);
   void take(vtkRenderer* made);
   std::shared_ptr<const render::RetractionScene> scene_;
@@ -46,7 +47,7 @@ class SceneView : public QWidget {
   bool newCamera_ = false;  ///< and from the preset direction
   bool making_ = false;     ///< the thread is at work; stale_ says that its scene is out of date already
   std::jthread thread_;     ///< warps the surfaces; what it makes is only shown here
-  VtkWidget* widget_;
+  VtkWidget* widget_ = nullptr;  ///< null before the first scene
   QLabel* hint_;
   QStackedLayout* layout_;
 };

@@ -107,7 +107,7 @@ class SliceView : public QWidget {
   void zoomAt(const QPointF& at, double factor);
   void renderSlice();
   Eigen::Vector2d axisSigns() const;
-  void paintImage(QPainter& painter) const;
+  void renderBackdrop();
   void paintContours(QPainter& painter) const;
   void paintOutlineInWork(QPainter& painter, const tools::SlicePlane& plane) const;
   void paintCursor(QPainter& painter) const;
@@ -126,6 +126,14 @@ class SliceView : public QWidget {
   bool fitted_ = true;
   std::optional<Eigen::Vector3d> cursor_;
   QImage image_, hatch_;
+  /// Image and hatching as they are on screen: made anew only when slice, window, place or size change, so that a
+  /// gesture over it costs its own drawing alone.
+  QImage backdrop_;
+  struct Place {
+    double zoom_px_mm = 0.0, x = 0.0, y = 0.0, ratio = 0.0;
+    bool hidden = false;
+    bool operator==(const Place&) const = default;
+  } shownPlace_;
   bool stale_ = true;
   Drag drag_ = Drag::None;
   QPointF pressed_, last_;

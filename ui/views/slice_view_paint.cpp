@@ -1,6 +1,7 @@
 // How a slice view draws: image, hatching, contours, cursor, letters and bars.
 #include <QPainter>
 #include <QPainterPath>
+#include <QPixmapCache>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,11 +61,28 @@ void drawHandle(QPainter& painter, const QPointF& at, const QColor& colour, bool
   painter.drawRect(QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r));
 }
 
+/// Text that reads on bright and on dark. Stroking glyphs is slow, so each text is drawn once and kept as a picture.
 void textWithHalo(QPainter& painter, const QPointF& at, const QString& text, const QColor& colour) {
-  QPainterPath path;
-  path.addText(at, painter.font(), text);
-  painter.strokePath(path, QPen(QColor(0, 0, 0, 170), 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  painter.fillPath(path, colour);
+  const double ratio = painter.device()->devicePixelRatioF();
+  const QString key = QStringLiteral("halo|%1|%2|%3|%4").arg(text, painter.font().key(), colour.name()).arg(ratio);
+  const QFontMetricsF metrics(painter.font());
+  constexpr double margin = 4.0;
+  QPixmap picture;
+  if (!QPixmapCache::find(key, &picture)) {
+    const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * margin, metrics.height() + 2.0 * margin);
+    picture = QPixmap((size * ratio).toSize());
+    picture.setDevicePixelRatio(ratio);
+    picture.fill(Qt::transparent);
+    QPainter on(&picture);
+    on.setRenderHint(QPainter::Antialiasing);
+    QPainterPath path;
+    path.addText({margin, margin + metrics.ascent()}, painter.font(), text);
+    on.strokePath(path, QPen(QColor(0, 0, 0, 170), 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
+    on.fillPath(path, colour);
+    on.end();
+    QPixmapCache::insert(key, picture);
+  }
+  painter.drawPixmap(at - QPointF(margin, margin + metrics.ascent()), picture);
 }
 
 QString letterOf(const Eigen::Vector3d& direction) {
@@ -115,20 +133,27 @@ void SliceView::renderSlice() {
   }
 }
 
-void SliceView::paintImage(QPainter& painter) const {
+void SliceView::renderBackdrop() {
   const tools::SlicePlane shown = plane();
+  const Place place{zoom_px_mm_, offset_px_.x(), offset_px_.y(), devicePixelRatioF(), hidden_};
+  const QSize size = (QSizeF(this->size()) * devicePixelRatioF()).toSize();
+  const bool fresh = stale_ || backdrop_.size() != size || !(place == shownPlace_);
+  if (!fresh) return;
+  if (stale_) renderSlice();
+  shownPlace_ = place;
+  if (backdrop_.size() != size) backdrop_ = QImage(size, QImage::Format_RGB32);
+  backdrop_.setDevicePixelRatio(devicePixelRatioF());
+  backdrop_.fill(paper);
+  QPainter painter(&backdrop_);
   const image::Grid& grid = shown.grid;
-  painter.save();
   painter.setRenderHint(QPainter::SmoothPixmapTransform, !volume_.stiffness);
   painter.translate(point(shown.offset_px));
   painter.scale(shown.scale_px_mm.x() * grid.spacing_mm.x(), shown.scale_px_mm.y() * grid.spacing_mm.y());
   const QRectF cells(-0.5, -0.5, grid.size.x(), grid.size.y());
   painter.drawImage(cells, image_);
-  if (!hatch_.isNull() && !hidden_) {
-    painter.setRenderHint(QPainter::SmoothPixmapTransform, true);
-    painter.drawImage(cells, hatch_);
-  }
-  painter.restore();
+  if (hatch_.isNull() || hidden_) return;
+  painter.setRenderHint(QPainter::SmoothPixmapTransform, true);
+  painter.drawImage(cells, hatch_);
 }
 
 void SliceView::paintContours(QPainter& painter) const {
@@ -330,8 +355,8 @@ void SliceView::paintEvent(QPaintEvent*) {
     painter.drawText(rect().adjusted(24, 24, -24, -24), Qt::AlignCenter | Qt::TextWordWrap, hint_);
     return;
   }
-  if (stale_) renderSlice();
-  paintImage(painter);
+  renderBackdrop();
+  painter.drawImage(QPointF(0.0, 0.0), backdrop_);
   paintContours(painter);
   paintCursor(painter);
   paintColourBar(painter);

@@ -1,0 +1,1626 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de">
+ <context>
+  <name>glisson::panels::ComparePage</name>
+  <message>
+   <source>Run the retraction to compare MRE with the atlas.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>The vessels in 3-D appear here.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>MRE against atlas</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Difference at the retractor</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Over the whole liver</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Hepatic vessels</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>How far to trust it</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Display</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Red / blue</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Orange / blue (colour-blind)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Colours</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Oblique</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>From the front</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>From below</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Camera</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>slice %1 / %2</source>
+   <translation>Schicht %1 / %2</translation>
+  </message>
+  <message>
+   <source>Not run yet.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>mean %1, 95th percentile %2, largest %3
+%4</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>At or above the 5 mm that matter clinically.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Below the 5 mm that matter clinically.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>No vessel landmarks were found.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 % at 5 mm or more</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Something has changed since this run: run again.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>No warning: strains and rotations are within linear theory.</source>
+   <translation type="unfinished" />
+  </message>
+ </context>
+ <context>
+  <name>glisson::panels::ImageLayers</name>
+  <message>
+   <source>Stiffness</source>
+   <translation>Steifigkeit</translation>
+  </message>
+  <message>
+   <source>Magnitude</source>
+   <translation>Magnitude</translation>
+  </message>
+  <message>
+   <source>Wave</source>
+   <translation>Welle</translation>
+  </message>
+  <message>
+   <source>Confidence</source>
+   <translation>Konfidenz</translation>
+  </message>
+  <message>
+   <source>Show the %1 image</source>
+   <translation>Zeigt das Bild „%1“</translation>
+  </message>
+  <message>
+   <source>Play the wave (V)</source>
+   <translation>Welle abspielen (V)</translation>
+  </message>
+  <message>
+   <source>MRE magnitude</source>
+   <translation>MRE-Magnitude</translation>
+  </message>
+  <message>
+   <source>MRE stiffness (µ)</source>
+   <translation>MRE-Steifigkeit (µ)</translation>
+  </message>
+  <message>
+   <source>MRE confidence</source>
+   <translation>MRE-Konfidenz</translation>
+  </message>
+  <message>
+   <source>MRE wave</source>
+   <translation>MRE-Welle</translation>
+  </message>
+  <message>
+   <source>step %1 of %2</source>
+   <translation>Schritt %1 von %2</translation>
+  </message>
+  <message>
+   <source>one time step</source>
+   <translation>ein Zeitschritt</translation>
+  </message>
+ </context>
+ <context>
+  <name>glisson::panels::KeySheet</name>
+  <message>
+   <source>Keys and mouse</source>
+   <translation>Tasten und Maus</translation>
+  </message>
+  <message>
+   <source>What</source>
+   <translation>Was</translation>
+  </message>
+  <message>
+   <source>Key</source>
+   <translation>Taste</translation>
+  </message>
+  <message>
+   <source>Group</source>
+   <translation>Gruppe</translation>
+  </message>
+  <message>
+   <source>Keys</source>
+   <translation>Tasten</translation>
+  </message>
+  <message>
+   <source>Mouse</source>
+   <translation>Maus</translation>
+  </message>
+  <message>
+   <source>Idle</source>
+   <translation>Ruhe</translation>
+  </message>
+  <message>
+   <source>Drawing</source>
+   <translation>Zeichnen</translation>
+  </message>
+  <message>
+   <source>Editing, accepted</source>
+   <translation>Bearbeiten, angenommen</translation>
+  </message>
+  <message>
+   <source>Double-click a key to change it. Keys work while the mouse is over an image.</source>
+   <translation>Doppelklick auf eine Taste ändert sie. Tasten wirken, solange die Maus über einem Bild steht.</translation>
+  </message>
+  <message>
+   <source>As shipped</source>
+   <translation>Wie ausgeliefert</translation>
+  </message>
+  <message>
+   <source>Press the new key:</source>
+   <translation>Neue Taste drücken:</translation>
+  </message>
+  <message>
+   <source>This key already means: %1</source>
+   <translation>Diese Taste bedeutet schon: %1</translation>
+  </message>
+ </context>
+ <context>
+  <name>glisson::panels::LoadPage</name>
+  <message>
+   <source>Open a patient</source>
+   <translation>Patienten öffnen</translation>
+  </message>
+  <message>
+   <source>A DICOM folder with an abdominal MRI and an MR elastogram. Drop it here, or start with a synthetic patient to look around.</source>
+   <translation>Ein DICOM-Ordner mit Abdomen-MRT und MR-Elastogramm. Hier ablegen, oder zum Umsehen mit einem synthetischen Patienten beginnen.</translation>
+  </message>
+  <message>
+   <source>Open DICOM folder…</source>
+   <translation>DICOM-Ordner öffnen…</translation>
+  </message>
+  <message>
+   <source>Open a folder (Ctrl+O)</source>
+   <translation>Ordner öffnen (Strg+O)</translation>
+  </message>
+  <message>
+   <source>Synthetic patient</source>
+   <translation>Synthetischer Patient</translation>
+  </message>
+  <message>
+   <source>Makes a synthetic patient as DICOM and opens it (Ctrl+Shift+N)</source>
+   <translation>Erzeugt einen synthetischen Patienten als DICOM und öffnet ihn (Strg+Umschalt+N)</translation>
+  </message>
+  <message>
+   <source>Recent</source>
+   <translation>Zuletzt</translation>
+  </message>
+  <message>
+   <source>Series</source>
+   <translation>Serien</translation>
+  </message>
+  <message>
+   <source>Open another…</source>
+   <translation>Anderen öffnen…</translation>
+  </message>
+  <message>
+   <source>Open another folder (Ctrl+O)</source>
+   <translation>Anderen Ordner öffnen (Strg+O)</translation>
+  </message>
+  <message>
+   <source>No.</source>
+   <translation>Nr.</translation>
+  </message>
+  <message>
+   <source>Description</source>
+   <translation>Beschreibung</translation>
+  </message>
+  <message>
+   <source>Role</source>
+   <translation>Rolle</translation>
+  </message>
+  <message>
+   <source>Why</source>
+   <translation>Warum</translation>
+  </message>
+  <message>
+   <source>Voxels</source>
+   <translation>Voxel</translation>
+  </message>
+  <message>
+   <source>Spacing</source>
+   <translation>Abstand</translation>
+  </message>
+  <message>
+   <source>Warnings</source>
+   <translation>Warnungen</translation>
+  </message>
+  <message>
+   <source>Files left out</source>
+   <translation>Ausgelassene Dateien</translation>
+  </message>
+  <message>
+   <source>File</source>
+   <translation>Datei</translation>
+  </message>
+  <message>
+   <source>Reason</source>
+   <translation>Grund</translation>
+  </message>
+  <message>
+   <source>%1 series, %2 files left out. Correct a role where the guess is wrong.</source>
+   <translation>%1 Serien, %2 Dateien ausgelassen. Eine falsch geratene Rolle lässt sich ändern.</translation>
+  </message>
+ </context>
+ <context>
+  <name>glisson::panels::MainWindow</name>
+  <message>
+   <source>Open DICOM folder</source>
+   <translation>DICOM-Ordner öffnen</translation>
+  </message>
+  <message>
+   <source>Import outlines</source>
+   <translation>Konturen importieren</translation>
+  </message>
+  <message>
+   <source>Outlines (*.dcm *.json *.nii *.nii.gz *.nrrd *.mha);;All files (*)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Save case into a folder</source>
+   <translation>Fall in einen Ordner speichern</translation>
+  </message>
+  <message>
+   <source>Save case</source>
+   <translation>Fall speichern</translation>
+  </message>
+  <message>
+   <source>Open case or archive</source>
+   <translation>Fall oder Archiv öffnen</translation>
+  </message>
+  <message>
+   <source>Cases, archives, DICOMDIR (case.json *.zip DICOMDIR);;All files (*)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>A second reader's outlines</source>
+   <translation>Konturen eines zweiten Befunders</translation>
+  </message>
+  <message>
+   <source>Outlines and cases (*.json *.dcm);;All files (*)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>None yet</source>
+   <translation>Noch keine</translation>
+  </message>
+  <message>
+   <source>Glisson did not end in order. %1 outlines can be brought back%2.</source>
+   <translation>Glisson wurde nicht ordentlich beendet. %1 Konturen lassen sich zurückholen%2.</translation>
+  </message>
+  <message>
+   <source>, and the one being drawn</source>
+   <translation>, auch die gerade gezeichnete</translation>
+  </message>
+  <message>
+   <source>Recover</source>
+   <translation>Zurückholen</translation>
+  </message>
+  <message>
+   <source>Opens the patient and puts the outlines back</source>
+   <translation>Öffnet den Patienten und setzt die Konturen wieder ein</translation>
+  </message>
+  <message>
+   <source>Later</source>
+   <translation>Später</translation>
+  </message>
+  <message>
+   <source>Keeps it for the next start</source>
+   <translation>Bewahrt sie bis zum nächsten Start</translation>
+  </message>
+  <message>
+   <source>Discard</source>
+   <translation>Verwerfen</translation>
+  </message>
+  <message>
+   <source>Deletes what could be brought back</source>
+   <translation>Löscht, was zurückgeholt werden könnte</translation>
+  </message>
+  <message>
+   <source>&amp;File</source>
+   <translation>&amp;Datei</translation>
+  </message>
+  <message>
+   <source>&amp;Open DICOM folder…</source>
+   <translation>DICOM-&amp;Ordner öffnen…</translation>
+  </message>
+  <message>
+   <source>Open &amp;case or archive…</source>
+   <translation>&amp;Fall oder Archiv öffnen…</translation>
+  </message>
+  <message>
+   <source>&amp;Recent</source>
+   <translation>&amp;Zuletzt</translation>
+  </message>
+  <message>
+   <source>Synthetic &amp;patient</source>
+   <translation>Synthetischer &amp;Patient</translation>
+  </message>
+  <message>
+   <source>&amp;Import outlines…</source>
+   <translation>Konturen &amp;importieren…</translation>
+  </message>
+  <message>
+   <source>&amp;Save case</source>
+   <translation>Fall &amp;speichern</translation>
+  </message>
+  <message>
+   <source>Save case &amp;as…</source>
+   <translation>Fall speichern &amp;unter…</translation>
+  </message>
+  <message>
+   <source>&amp;Quit</source>
+   <translation>&amp;Beenden</translation>
+  </message>
+  <message>
+   <source>&amp;Edit</source>
+   <translation>&amp;Bearbeiten</translation>
+  </message>
+  <message>
+   <source>&amp;Undo</source>
+   <translation>&amp;Rückgängig</translation>
+  </message>
+  <message>
+   <source>&amp;Redo</source>
+   <translation>&amp;Wiederherstellen</translation>
+  </message>
+  <message>
+   <source>&amp;Interpolate between slices</source>
+   <translation>Zwischen Schichten &amp;interpolieren</translation>
+  </message>
+  <message>
+   <source>&amp;Accept all interpolated outlines</source>
+   <translation>&amp;Alle interpolierten Konturen annehmen</translation>
+  </message>
+  <message>
+   <source>Load a &amp;second reader's outlines…</source>
+   <translation>Konturen eines &amp;zweiten Befunders laden…</translation>
+  </message>
+  <message>
+   <source>&amp;Compare both readers</source>
+   <translation>Beide Befunder &amp;vergleichen</translation>
+  </message>
+  <message>
+   <source>&amp;Run</source>
+   <translation>&amp;Rechnen</translation>
+  </message>
+  <message>
+   <source>&amp;Build, retract and compare</source>
+   <translation>&amp;Aufbauen, retrahieren und vergleichen</translation>
+  </message>
+  <message>
+   <source>&amp;Cancel</source>
+   <translation>&amp;Abbrechen</translation>
+  </message>
+  <message>
+   <source>&amp;View</source>
+   <translation>&amp;Ansicht</translation>
+  </message>
+  <message>
+   <source>&amp;Dark theme</source>
+   <translation>&amp;Dunkel</translation>
+  </message>
+  <message>
+   <source>&amp;Light theme</source>
+   <translation>&amp;Hell</translation>
+  </message>
+  <message>
+   <source>&amp;Fit images</source>
+   <translation>Bilder &amp;einpassen</translation>
+  </message>
+  <message>
+   <source>&amp;Help</source>
+   <translation>&amp;Hilfe</translation>
+  </message>
+  <message>
+   <source>&amp;Keys and mouse</source>
+   <translation>&amp;Tasten und Maus</translation>
+  </message>
+  <message>
+   <source>&amp;About Glisson</source>
+   <translation>&amp;Über Glisson</translation>
+  </message>
+  <message>
+   <source>, %1 s left</source>
+   <translation>, noch %1 s</translation>
+  </message>
+  <message>
+   <source>, %1 min left</source>
+   <translation>, noch %1 min</translation>
+  </message>
+  <message>
+   <source>Cancel</source>
+   <translation>Abbrechen</translation>
+  </message>
+  <message>
+   <source>Glisson[*] – %1</source>
+   <translation>Glisson[*] – %1</translation>
+  </message>
+  <message>
+   <source>Cancelling</source>
+   <translation>Wird abgebrochen</translation>
+  </message>
+  <message>
+   <source>Two readers</source>
+   <translation>Zwei Befunder</translation>
+  </message>
+  <message>
+   <source>Saved, version %1.</source>
+   <translation>Gespeichert, Version %1.</translation>
+  </message>
+  <message>
+   <source>Not saved: %1 The outlines are kept.</source>
+   <translation>Nicht gespeichert: %1 Die Konturen bleiben erhalten.</translation>
+  </message>
+  <message>
+   <source>&amp;Undo %1</source>
+   <translation>&amp;Rückgängig: %1</translation>
+  </message>
+  <message>
+   <source>&amp;Redo %1</source>
+   <translation>&amp;Wiederherstellen: %1</translation>
+  </message>
+  <message>
+   <source>Outlines are not saved</source>
+   <translation>Konturen sind nicht gespeichert</translation>
+  </message>
+  <message>
+   <source>The outlines of this case are not saved. Go on without saving them?</source>
+   <translation>Die Konturen dieses Falls sind nicht gespeichert. Ohne Speichern fortfahren?</translation>
+  </message>
+  <message>
+   <source>About Glisson</source>
+   <translation>Über Glisson</translation>
+  </message>
+  <message>
+   <source>&lt;h2&gt;Glisson %1&lt;/h2&gt;&lt;p&gt;&lt;b&gt;%2&lt;/b&gt;&lt;/p&gt;&lt;p&gt;Patient-specific biomechanics of the liver from MRI and MR elastography.&lt;/p&gt;&lt;p&gt;Numbers and reference ranges only, never a diagnosis.&lt;/p&gt;&lt;p&gt;Free software under the GNU General Public License, version 3 or later.&lt;/p&gt;</source>
+   <translation type="unfinished" />
+  </message>
+ </context>
+ <context>
+  <name>glisson::panels::ModelPage</name>
+  <message>
+   <source>Plan</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>What this case needs, what it leaves out, and why. Times are predicted before a run and measured after it.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Step</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Needed</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Time</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Why</source>
+   <translation>Warum</translation>
+  </message>
+  <message>
+   <source>automatic (%1 mm)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Model</source>
+   <translation>Modell</translation>
+  </message>
+  <message>
+   <source>Material</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>MR elastogram</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Atlas</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Stiffness</source>
+   <translation>Steifigkeit</translation>
+  </message>
+  <message>
+   <source>kPa (µ)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Shear modulus of the atlas model; healthy donors: 2.1 kPa</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Poisson's ratio ν; 0.5 would be incompressible</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Poisson's ratio ν</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Mass density of the liver</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Density</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Discretisation</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Voxel FEM (hexahedra)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Mesh-free (Voronoi sites)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Method</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Edge of a voxel cell: smaller is more exact and slower. 0 = twice the pixel of the MRI</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>automatic</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Cell</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Number of mesh-free sites</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Sites</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Liver</source>
+   <translation>Leber</translation>
+  </message>
+  <message>
+   <source>Run</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Build, retract and compare (Ctrl+R)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>no plan</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>%1%2 s</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>yes</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>left out</source>
+   <translation>ausgenommen</translation>
+  </message>
+  <message>
+   <source>%1 cells, %2 mL, %3 kg</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>
+(of the last run; something has changed since)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Outline the liver first (step Segment).</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Known after the first run.</source>
+   <translation type="unfinished" />
+  </message>
+ </context>
+ <context>
+  <name>glisson::panels::OutlinePanel</name>
+  <message>
+   <source>Outline the liver</source>
+   <translation>Leber umfahren</translation>
+  </message>
+  <message>
+   <source>Accept</source>
+   <translation>Annehmen</translation>
+  </message>
+  <message>
+   <source>Stiffness under the outline</source>
+   <translation>Steifigkeit in der Kontur</translation>
+  </message>
+  <message>
+   <source>Inner region</source>
+   <translation>Innenbereich</translation>
+  </message>
+  <message>
+   <source> px</source>
+   <translation> px</translation>
+  </message>
+  <message>
+   <source>Pixels of the elastogram taken off the edge ([ and ])</source>
+   <translation>Pixel des Elastogramms, die am Rand wegfallen ([ und ])</translation>
+  </message>
+  <message>
+   <source>Colour scale</source>
+   <translation>Farbskala</translation>
+  </message>
+  <message>
+   <source>0 – %1 kPa</source>
+   <translation>0 – %1 kPa</translation>
+  </message>
+  <message>
+   <source>Outlines</source>
+   <translation>Konturen</translation>
+  </message>
+  <message>
+   <source>Slice</source>
+   <translation>Schicht</translation>
+  </message>
+  <message>
+   <source>Vertices</source>
+   <translation>Punkte</translation>
+  </message>
+  <message>
+   <source>State</source>
+   <translation>Zustand</translation>
+  </message>
+  <message>
+   <source>Interpolate</source>
+   <translation>Interpolieren</translation>
+  </message>
+  <message>
+   <source>Accept all</source>
+   <translation>Alle annehmen</translation>
+  </message>
+  <message>
+   <source>Import outlines…</source>
+   <translation>Konturen importieren…</translation>
+  </message>
+  <message>
+   <source>RT Structure Set, contour file or mask (Ctrl+I)</source>
+   <translation>RT Structure Set, Konturdatei oder Maske (Strg+I)</translation>
+  </message>
+  <message>
+   <source>%1 px → %2 after mask, %3 cm², %4 ± %5 kPa (µ)</source>
+   <translation>%1 px → %2 nach Maske, %3 cm², %4 ± %5 kPa (µ)</translation>
+  </message>
+  <message>
+   <source>Inner region, %1 pixels off the edge</source>
+   <translation>Innenbereich, %1 Pixel vom Rand</translation>
+  </message>
+  <message>
+   <source>%1 ± %2 kPa</source>
+   <translation>%1 ± %2 kPa</translation>
+  </message>
+  <message>
+   <source>All slices: </source>
+   <translation>Alle Schichten: </translation>
+  </message>
+  <message>
+   <source>This slice: </source>
+   <translation>Diese Schicht: </translation>
+  </message>
+  <message>
+   <source>left out</source>
+   <translation>ausgenommen</translation>
+  </message>
+  <message>
+   <source>drawn</source>
+   <translation>gezeichnet</translation>
+  </message>
+  <message>
+   <source>interpolated</source>
+   <translation>interpoliert</translation>
+  </message>
+  <message>
+   <source>draft</source>
+   <translation>Entwurf</translation>
+  </message>
+  <message>
+   <source>empty</source>
+   <translation>leer</translation>
+  </message>
+  <message>
+   <source>no liver</source>
+   <translation>keine Leber</translation>
+  </message>
+  <message>
+   <source>no wave</source>
+   <translation>keine Welle</translation>
+  </message>
+  <message>
+   <source>%1 drawn, %2 interpolated, %3 empty between them.</source>
+   <translation>%1 gezeichnet, %2 interpoliert, %3 leere dazwischen.</translation>
+  </message>
+  <message>
+   <source>A run fills these by shape.</source>
+   <translation>Eine Rechnung füllt diese nach der Form.</translation>
+  </message>
+  <message>
+   <source>Undo %1 (%2)</source>
+   <translation>Rückgängig: %1 (%2)</translation>
+  </message>
+  <message>
+   <source>Redo %1 (%2)</source>
+   <translation>Wiederherstellen: %1 (%2)</translation>
+  </message>
+  <message>
+   <source>Close</source>
+   <translation>Schließen</translation>
+  </message>
+  <message>
+   <source>Drag to push the outline with the disc; [ and ] change its size.</source>
+   <translation>Ziehen schiebt die Kontur mit der Scheibe; [ und ] ändern ihre Größe.</translation>
+  </message>
+  <message>
+   <source>Click vertices on the MRI, or drag to draw freehand. Click an outline to edit it.</source>
+   <translation>Punkte auf der MRT anklicken, oder durch Ziehen freihändig zeichnen. Klick auf eine Kontur bearbeitet sie.</translation>
+  </message>
+  <message>
+   <source>Close on the first vertex, with a right click, a double click or Enter. Backspace takes the last vertex back, Esc parks a draft.</source>
+   <translation>Schließen am ersten Punkt, mit Rechtsklick, Doppelklick oder Eingabe. Rücktaste nimmt den letzten Punkt zurück, Esc legt einen Entwurf ab.</translation>
+  </message>
+  <message>
+   <source>Interpolated between drawn slices. Enter accepts it, correcting it accepts it too; an outline drawn on this slice replaces it.</source>
+   <translation>Zwischen gezeichneten Schichten interpoliert. Eingabe nimmt an, Korrigieren ebenso; eine hier gezeichnete Kontur ersetzt sie.</translation>
+  </message>
+  <message>
+   <source>Drag vertices to adjust; Ctrl+click adds or deletes one. Enter accepts.</source>
+   <translation>Punkte ziehen; Strg+Klick fügt einen ein oder löscht ihn. Eingabe nimmt an.</translation>
+  </message>
+  <message>
+   <source>Accepted. It can still be edited; click beside it to draw the next.</source>
+   <translation>Angenommen. Bleibt bearbeitbar; ein Klick daneben beginnt die nächste.</translation>
+  </message>
+ </context>
+ <context>
+  <name>glisson::panels::RetractPage</name>
+  <message>
+   <source>Run the retraction to see the liver move.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Play the retraction</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>%1 %</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Retraction</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Nathanson retractor</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Diameter of the bar</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Diameter</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Length of the bar that bears</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Length</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Tissue wraps round the bar: how far its pressure reaches beyond it; 0 is a bare bar</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Wrap</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>The liver's weight</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Given force</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Hoist</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Hoisting force, towards anterior in the transverse plane</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Force</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Under the inferior right lobe, hoisted towards anterior. The same load for MRE and atlas.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Abdomen</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Elastic resistance per area of the posterior and superior surface (Winkler foundation)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Resistance</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Solution</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Run</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Build, retract and compare (Ctrl+R)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Not run yet.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>%1: %2 iterations, residual %3
+%4 degrees of freedom
+Load %5 N, reaction %6 N
+Largest strain %7 %, rotation %8°</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Linear theory can be trusted here.</source>
+   <translation type="unfinished" />
+  </message>
+ </context>
+ <context>
+  <name>glisson::panels::SegmentPage</name>
+  <message>
+   <source>Every slice is outlined or marked.</source>
+   <translation>Jede Schicht ist umfahren oder markiert.</translation>
+  </message>
+  <message>
+   <source>The views move together.</source>
+   <translation>Die Ansichten bewegen sich gemeinsam.</translation>
+  </message>
+  <message>
+   <source>The views move on their own.</source>
+   <translation>Jede Ansicht bewegt sich für sich.</translation>
+  </message>
+  <message>
+   <source>Copy to slices…</source>
+   <translation>Auf Schichten kopieren…</translation>
+  </message>
+  <message>
+   <source>Properties and statistics…</source>
+   <translation>Eigenschaften und Statistik…</translation>
+  </message>
+  <message>
+   <source>Copy to slices</source>
+   <translation>Auf Schichten kopieren</translation>
+  </message>
+  <message>
+   <source>Copy to all empty slices up to slice:</source>
+   <translation>Auf alle leeren Schichten kopieren bis Schicht:</translation>
+  </message>
+  <message>
+   <source>none</source>
+   <translation>keine</translation>
+  </message>
+  <message>
+   <source>%1 cm²</source>
+   <translation>%1 cm²</translation>
+  </message>
+  <message>
+   <source>%1 ± %2 kPa (µ), %3 of %4 pixels count</source>
+   <translation>%1 ± %2 kPa (µ), %3 von %4 Pixeln zählen</translation>
+  </message>
+  <message>
+   <source>left out</source>
+   <translation>ausgenommen</translation>
+  </message>
+  <message>
+   <source>accepted</source>
+   <translation>angenommen</translation>
+  </message>
+  <message>
+   <source>interpolated</source>
+   <translation>interpoliert</translation>
+  </message>
+  <message>
+   <source>draft</source>
+   <translation>Entwurf</translation>
+  </message>
+  <message>
+   <source>Outline on slice %1</source>
+   <translation>Kontur auf Schicht %1</translation>
+  </message>
+  <message>
+   <source>%1 vertices, %2
+Area: %3
+Stiffness on this slice: %4
+
+Name of the region:</source>
+   <translation>%1 Punkte, %2
+Fläche: %3
+Steifigkeit auf dieser Schicht: %4
+
+Name des Bereichs:</translation>
+  </message>
+  <message>
+   <source>Open images first (step Load).</source>
+   <translation>Zuerst Bilder öffnen (Schritt Laden).</translation>
+  </message>
+  <message>
+   <source>No elastogram is open.</source>
+   <translation>Kein Elastogramm ist geöffnet.</translation>
+  </message>
+  <message>
+   <source>MRI slice</source>
+   <translation>MRT-Schicht</translation>
+  </message>
+  <message>
+   <source>Elastography slice</source>
+   <translation>Elastographie-Schicht</translation>
+  </message>
+  <message>
+   <source>Window and level of the MRI (0 to 5)</source>
+   <translation>Fenster der MRT (0 bis 5)</translation>
+  </message>
+  <message>
+   <source>Auto</source>
+   <translation>Auto</translation>
+  </message>
+  <message>
+   <source>Soft</source>
+   <translation>Weich</translation>
+  </message>
+  <message>
+   <source>Liver</source>
+   <translation>Leber</translation>
+  </message>
+  <message>
+   <source>Vessels</source>
+   <translation>Gefäße</translation>
+  </message>
+  <message>
+   <source>Bright</source>
+   <translation>Hell</translation>
+  </message>
+  <message>
+   <source>Dark</source>
+   <translation>Dunkel</translation>
+  </message>
+  <message>
+   <source>Under the cursor: %1 kPa (µ)</source>
+   <translation>Unter dem Zeiger: %1 kPa (µ)</translation>
+  </message>
+  <message>
+   <source>MRI</source>
+   <translation>MRT</translation>
+  </message>
+  <message>
+   <source>no liver</source>
+   <translation>keine Leber</translation>
+  </message>
+  <message>
+   <source>no reliable wave</source>
+   <translation>keine verlässliche Welle</translation>
+  </message>
+ </context>
+ <context>
+  <name>glisson::session::Session</name>
+  <message>
+   <source>vertex</source>
+   <translation>Punkt</translation>
+  </message>
+  <message>
+   <source>Reading images</source>
+   <translation>Bilder werden gelesen</translation>
+  </message>
+  <message>
+   <source>Open a DICOM folder or the synthetic patient</source>
+   <translation>DICOM-Ordner oder synthetischen Patienten öffnen</translation>
+  </message>
+  <message>
+   <source>1 series</source>
+   <translation>1 Serie</translation>
+  </message>
+  <message>
+   <source>%1 series</source>
+   <translation>%1 Serien</translation>
+  </message>
+  <message>
+   <source>Needs images</source>
+   <translation>Braucht Bilder</translation>
+  </message>
+  <message>
+   <source>Outline the liver</source>
+   <translation>Leber umfahren</translation>
+  </message>
+  <message>
+   <source>1 outline</source>
+   <translation>1 Kontur</translation>
+  </message>
+  <message>
+   <source>%1 outlines</source>
+   <translation>%1 Konturen</translation>
+  </message>
+  <message>
+   <source>, %1 slices interpolated</source>
+   <translation>, %1 Schichten interpoliert</translation>
+  </message>
+  <message>
+   <source>, %1 slices between them empty</source>
+   <translation>, %1 Schichten dazwischen leer</translation>
+  </message>
+  <message>
+   <source>Needs an outline</source>
+   <translation>Braucht eine Kontur</translation>
+  </message>
+  <message>
+   <source>Running</source>
+   <translation>Rechnet</translation>
+  </message>
+  <message>
+   <source>Changed since the last run</source>
+   <translation>Seit der letzten Rechnung geändert</translation>
+  </message>
+  <message>
+   <source>Needs a run</source>
+   <translation>Braucht eine Rechnung</translation>
+  </message>
+  <message>
+   <source>Set and check</source>
+   <translation>Einstellen und prüfen</translation>
+  </message>
+  <message>
+   <source>Ready to run</source>
+   <translation>Bereit</translation>
+  </message>
+  <message>
+   <source>%1 cells</source>
+   <translation>%1 Zellen</translation>
+  </message>
+  <message>
+   <source>%1 DOFs</source>
+   <translation>%1 Freiheitsgrade</translation>
+  </message>
+  <message>
+   <source>Nothing was compared</source>
+   <translation>Nichts wurde verglichen</translation>
+  </message>
+  <message>
+   <source>mean %1 mm</source>
+   <translation>Mittel %1 mm</translation>
+  </message>
+  <message>
+   <source>No elastogram is open.</source>
+   <translation>Kein Elastogramm ist geöffnet.</translation>
+  </message>
+  <message>
+   <source>Draw an outline to measure.</source>
+   <translation>Zum Messen eine Kontur zeichnen.</translation>
+  </message>
+  <message>
+   <source>Cancelled.</source>
+   <translation>Abgebrochen.</translation>
+  </message>
+  <message>
+   <source>Opening</source>
+   <translation>Wird geöffnet</translation>
+  </message>
+  <message>
+   <source>Opening the synthetic patient</source>
+   <translation>Der synthetische Patient wird geöffnet</translation>
+  </message>
+  <message>
+   <source>Recovering</source>
+   <translation>Wird zurückgeholt</translation>
+  </message>
+  <message>
+   <source>Still at work; cancel it first.</source>
+   <translation>Es wird noch gerechnet; zuerst abbrechen.</translation>
+  </message>
+  <message>
+   <source>Outline the liver on two slices at least, and accept these outlines (Enter).</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>The outlines changed meanwhile; interpolate again.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>There is no empty slice between outlines that overlap.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>%1 slices were interpolated between %2 drawn ones. They count; accept, correct or redraw them.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Interpolating</source>
+   <translation>Wird interpoliert</translation>
+  </message>
+  <message>
+   <source>The outlines changed meanwhile; propose again.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Proposed, but it reaches the border of the image: it may have leaked. Correct it.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Proposed on every slice. Correct and accept; nothing is decided yet.</source>
+   <translation>Auf jeder Schicht vorgeschlagen. Korrigieren und annehmen; noch ist nichts entschieden.</translation>
+  </message>
+  <message>
+   <source>Proposing outlines</source>
+   <translation>Konturen werden vorgeschlagen</translation>
+  </message>
+  <message>
+   <source>Outline the liver and accept the outline (Enter) first.</source>
+   <translation>Zuerst die Leber umfahren und die Kontur annehmen (Eingabe).</translation>
+  </message>
+  <message>
+   <source>There is an outline on this slice: delete it before the slice is marked "no liver".</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>This slice lies between outlined ones and is filled by shape; it cannot be without liver.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>There is no outline on this slice to copy.</source>
+   <translation>Auf dieser Schicht ist keine Kontur zum Kopieren.</translation>
+  </message>
+  <message>
+   <source>Copied one outline.</source>
+   <translation>Eine Kontur kopiert.</translation>
+  </message>
+  <message>
+   <source>Copied %1 outlines.</source>
+   <translation>%1 Konturen kopiert.</translation>
+  </message>
+  <message>
+   <source>Copy an outline first (Ctrl+C).</source>
+   <translation>Zuerst eine Kontur kopieren (Strg+C).</translation>
+  </message>
+  <message>
+   <source>There is no empty slice there.</source>
+   <translation>Dort ist keine leere Schicht.</translation>
+  </message>
+  <message>
+   <source>Pasted on %1 slices. They count; accept, correct or redraw them.</source>
+   <translation>Auf %1 Schichten eingefügt. Sie zählen; annehmen, korrigieren oder neu zeichnen.</translation>
+  </message>
+  <message>
+   <source>Load a second reader's outlines first.</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Dice %1, Jaccard %2
+Hausdorff %3 mm (95 %: %4 mm), mean distance %5 mm
+Volume %6 mL against %7 mL, difference %8 mL (%9 %)</source>
+   <translation type="unfinished" />
+  </message>
+  <message>
+   <source>Comparing readers</source>
+   <translation>Befunder werden verglichen</translation>
+  </message>
+ </context>
+ <context>
+  <name>glisson::views::SliceView</name>
+  <message>
+   <source> mm</source>
+   <translation> mm</translation>
+  </message>
+  <message>
+   <source>slice %1 / %2</source>
+   <translation>Schicht %1 / %2</translation>
+  </message>
+ </context>
+ <context>
+  <name>glisson::panels::StepRail</name>
+  <message>
+   <source>Load</source>
+   <translation>Laden</translation>
+  </message>
+  <message>
+   <source>Segment</source>
+   <translation>Segment</translation>
+  </message>
+  <message>
+   <source>Model</source>
+   <translation>Modell</translation>
+  </message>
+  <message>
+   <source>Retract</source>
+   <translation>Retraktion</translation>
+  </message>
+  <message>
+   <source>Compare</source>
+   <translation>Vergleich</translation>
+  </message>
+  <message>
+   <source>empty</source>
+   <translation>leer</translation>
+  </message>
+  <message>
+   <source>ready</source>
+   <translation>bereit</translation>
+  </message>
+  <message>
+   <source>running</source>
+   <translation>rechnet</translation>
+  </message>
+  <message>
+   <source>done</source>
+   <translation>fertig</translation>
+  </message>
+  <message>
+   <source>stale</source>
+   <translation>veraltet</translation>
+  </message>
+  <message>
+   <source>failed</source>
+   <translation>Fehler</translation>
+  </message>
+ </context>
+ <context>
+  <name>keymap</name>
+  <message>
+   <source>Tools</source>
+   <translation>Werkzeuge</translation>
+  </message>
+  <message>
+   <source>Outline</source>
+   <translation>Kontur</translation>
+  </message>
+  <message>
+   <source>Slices</source>
+   <translation>Schichten</translation>
+  </message>
+  <message>
+   <source>View</source>
+   <translation>Ansicht</translation>
+  </message>
+  <message>
+   <source>Polygon</source>
+   <translation>Polygon</translation>
+  </message>
+  <message>
+   <source>freehand</source>
+   <translation>freihand</translation>
+  </message>
+  <message>
+   <source>Freehand: letting go closes</source>
+   <translation>Freihand: Loslassen schließt</translation>
+  </message>
+  <message>
+   <source>Sculpt: push the outline with a disc</source>
+   <translation>Formen: Kontur mit einer Scheibe schieben</translation>
+  </message>
+  <message>
+   <source>Measure a distance</source>
+   <translation>Abstand messen</translation>
+  </message>
+  <message>
+   <source>Window and level by dragging</source>
+   <translation>Fenster durch Ziehen</translation>
+  </message>
+  <message>
+   <source>Close or accept</source>
+   <translation>Schließen oder annehmen</translation>
+  </message>
+  <message>
+   <source>Close and accept</source>
+   <translation>Schließen und annehmen</translation>
+  </message>
+  <message>
+   <source>Take the last vertex back; take a draft up again</source>
+   <translation>Letzten Punkt zurücknehmen; Entwurf wieder aufnehmen</translation>
+  </message>
+  <message>
+   <source>Delete the selected vertices or outline</source>
+   <translation>Gewählte Punkte oder Kontur löschen</translation>
+  </message>
+  <message>
+   <source>Split: halve the selected edges; two vertices apart: cut in two</source>
+   <translation>Teilen: gewählte Kanten halbieren; zwei entfernte Punkte: durchschneiden</translation>
+  </message>
+  <message>
+   <source>Trim: thin out the selection; two vertices apart: cut the smaller part off</source>
+   <translation>Stutzen: Auswahl ausdünnen; zwei entfernte Punkte: kleineren Teil abschneiden</translation>
+  </message>
+  <message>
+   <source>Park as draft; again: discard</source>
+   <translation>Als Entwurf ablegen; nochmals: verwerfen</translation>
+  </message>
+  <message>
+   <source>Undo</source>
+   <translation>Rückgängig</translation>
+  </message>
+  <message>
+   <source>Redo</source>
+   <translation>Wiederherstellen</translation>
+  </message>
+  <message>
+   <source>Select the whole outline</source>
+   <translation>Ganze Kontur wählen</translation>
+  </message>
+  <message>
+   <source>Select nothing</source>
+   <translation>Nichts wählen</translation>
+  </message>
+  <message>
+   <source>Copy the outline, or all of the slice</source>
+   <translation>Kontur kopieren, oder alle der Schicht</translation>
+  </message>
+  <message>
+   <source>Paste on this slice</source>
+   <translation>Auf dieser Schicht einfügen</translation>
+  </message>
+  <message>
+   <source>Paste on all empty slices between</source>
+   <translation>Auf allen leeren Schichten dazwischen einfügen</translation>
+  </message>
+  <message>
+   <source>First slice</source>
+   <translation>Erste Schicht</translation>
+  </message>
+  <message>
+   <source>Last slice</source>
+   <translation>Letzte Schicht</translation>
+  </message>
+  <message>
+   <source>Next slice</source>
+   <translation>Nächste Schicht</translation>
+  </message>
+  <message>
+   <source>Slice before</source>
+   <translation>Vorige Schicht</translation>
+  </message>
+  <message>
+   <source>Next slice that is still to be done</source>
+   <translation>Nächste offene Schicht</translation>
+  </message>
+  <message>
+   <source>Mark: no liver on this slice</source>
+   <translation>Markieren: keine Leber auf dieser Schicht</translation>
+  </message>
+  <message>
+   <source>Mark: no reliable wave on this slice</source>
+   <translation>Markieren: keine verlässliche Welle</translation>
+  </message>
+  <message>
+   <source>This outline counts</source>
+   <translation>Diese Kontur zählt</translation>
+  </message>
+  <message>
+   <source>This outline is left out (vessel, cyst)</source>
+   <translation>Diese Kontur ist ausgenommen (Gefäß, Zyste)</translation>
+  </message>
+  <message>
+   <source>Inner region: measure away from the edge</source>
+   <translation>Innenbereich: abseits des Randes messen</translation>
+  </message>
+  <message>
+   <source>Less erosion; sculpting: smaller disc</source>
+   <translation>Weniger Erosion; Formen: kleinere Scheibe</translation>
+  </message>
+  <message>
+   <source>More erosion; sculpting: larger disc</source>
+   <translation>Mehr Erosion; Formen: größere Scheibe</translation>
+  </message>
+  <message>
+   <source>Hold to hide all overlays</source>
+   <translation>Gehalten: Überlagerungen verbergen</translation>
+  </message>
+  <message>
+   <source>Window from the image</source>
+   <translation>Fenster aus dem Bild</translation>
+  </message>
+  <message>
+   <source>Window: soft (widest)</source>
+   <translation>Fenster: weich (am breitesten)</translation>
+  </message>
+  <message>
+   <source>Window: liver</source>
+   <translation>Fenster: Leber</translation>
+  </message>
+  <message>
+   <source>Window: vessels</source>
+   <translation>Fenster: Gefäße</translation>
+  </message>
+  <message>
+   <source>Window: bright</source>
+   <translation>Fenster: hell</translation>
+  </message>
+  <message>
+   <source>Window: dark</source>
+   <translation>Fenster: dunkel</translation>
+  </message>
+  <message>
+   <source>Link slice, zoom and place of the views</source>
+   <translation>Schicht, Zoom und Ort der Ansichten koppeln</translation>
+  </message>
+  <message>
+   <source>Stiffness scale 0–8 or 0–20 kPa</source>
+   <translation>Steifigkeit 0–8 oder 0–20 kPa</translation>
+  </message>
+  <message>
+   <source>Interpolate between outlined slices</source>
+   <translation>Zwischen umfahrenen Schichten interpolieren</translation>
+  </message>
+  <message>
+   <source>Accept all interpolated outlines</source>
+   <translation>Alle interpolierten Konturen annehmen</translation>
+  </message>
+  <message>
+   <source>Propose an outline: grow a region from under the mouse</source>
+   <translation>Kontur vorschlagen: Bereich unter der Maus wachsen lassen</translation>
+  </message>
+  <message>
+   <source>Compare with a second reader's outlines</source>
+   <translation>Mit einem zweiten Befunder vergleichen</translation>
+  </message>
+  <message>
+   <source>Play or stop the wave</source>
+   <translation>Welle abspielen oder anhalten</translation>
+  </message>
+  <message>
+   <source>This sheet</source>
+   <translation>Diese Übersicht</translation>
+  </message>
+  <message>
+   <source>Left click</source>
+   <translation>Linksklick</translation>
+  </message>
+  <message>
+   <source>first vertex</source>
+   <translation>erster Punkt</translation>
+  </message>
+  <message>
+   <source>Left drag</source>
+   <translation>Links ziehen</translation>
+  </message>
+  <message>
+   <source>Double-click</source>
+   <translation>Doppelklick</translation>
+  </message>
+  <message>
+   <source>accept; accepted: properties and statistics</source>
+   <translation>annehmen; angenommen: Eigenschaften und Statistik</translation>
+  </message>
+  <message>
+   <source>Right click</source>
+   <translation>Rechtsklick</translation>
+  </message>
+  <message>
+   <source>menu</source>
+   <translation>Menü</translation>
+  </message>
+  <message>
+   <source>close</source>
+   <translation>schließen</translation>
+  </message>
+  <message>
+   <source>Right drag, Ctrl+wheel</source>
+   <translation>Rechts ziehen, Strg+Rad</translation>
+  </message>
+  <message>
+   <source>zoom</source>
+   <translation>Zoom</translation>
+  </message>
+  <message>
+   <source>Middle drag, Space+drag</source>
+   <translation>Mitte ziehen, Leertaste+Ziehen</translation>
+  </message>
+  <message>
+   <source>pan</source>
+   <translation>verschieben</translation>
+  </message>
+  <message>
+   <source>Wheel</source>
+   <translation>Rad</translation>
+  </message>
+  <message>
+   <source>slice</source>
+   <translation>Schicht</translation>
+  </message>
+  <message>
+   <source>Alt+drag</source>
+   <translation>Alt+Ziehen</translation>
+  </message>
+  <message>
+   <source>window and level</source>
+   <translation>Fenster</translation>
+  </message>
+  <message>
+   <source>Ctrl+click</source>
+   <translation>Strg+Klick</translation>
+  </message>
+ </context>
+</TS>
