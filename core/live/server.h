@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "base/progress.h"
+#include "retraction/live.h"
+
+namespace glisson::live {
+
+struct ServerOptions {
+  int port = 18944;             ///< OpenIGTLink's own; 0 = any free one
+  double rate_hz = 60.0;        ///< messages a second while the tool rests; a new pose is answered at once
+  std::size_t landmarks = 200;  ///< sent at most, spread evenly over those there are
+  bool ras = true;              ///< coordinates of all messages: RAS as 3D Slicer expects, else LPS; always mm
+  long frames = 0;              ///< ends after so many; 0 = until cancelled
+};
+
+/// What was measured while serving.
+struct ServerStatistics {
+  long frames = 0;                                ///< sent
+  long poses = 0;                                 ///< received
+  double rate_hz = 0.0;                           ///< frames over the time that a client was connected
+  double evaluate_us = 0.0;                       ///< mean time of one answer for both stiffnesses
+  double latency_ms = 0.0, latency_max_ms = 0.0;  ///< from a whole pose read to its answer handed to the network
+};
+
+/// Serves one OpenIGTLink client after another (header version 1):
+///   receives  TRANSFORM "Retractor"       pose of the tool; its translation is where the contact's centre is taken
+///   sends     POINT "LandmarksMRE"        landmarks with the measured stiffness
+///             POINT "LandmarksAtlas"      the same with the textbook stiffness (where atlas is given)
+///             TRANSFORM "RetractorReached" where the tool is, as it was taken
+///             STRING "RetractorForce"     "x y z" in N that the tool pulls with (measured stiffness)
+/// Until a pose arrives the scene's own hoist acts. Before the first message nothing moves; a pose more than 100 mm
+/// from the contact's rest, or not finite, is ignored. Carries no identity of the patient; listens on all interfaces,
+/// as OpenIGTLink's library does: use it on a network of one's own. landmarks_mm: at rest, LPS, as both models watch
+/// them. listening: called with the port once it can be connected to. Throws BadInput where the port cannot be opened.
+ServerStatistics serve(const retraction::LiveRetraction& mre, const retraction::LiveRetraction* atlas,
+                       const std::vector<Eigen::Vector3d>& landmarks_mm, const ServerOptions& options,
+                       const std::function<void(int)>& listening = {}, const Progress& progress = {});
+
+}  // namespace glisson::live
