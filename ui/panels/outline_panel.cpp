@@ -136,7 +136,10 @@ void OutlinePanel::makeList(QVBoxLayout* side) {
   interpolate_ =
       commandButton("interpolateButton", tr("Interpolate"), QStringLiteral("interpolate"), Command::Interpolate);
   acceptAll_ = commandButton("acceptAllButton", tr("Accept all"), QStringLiteral("accept"), Command::AcceptAll);
-  for (QPushButton* b : {interpolate_, acceptAll_}) fill->addWidget(b, 1);
+  for (QPushButton* b : {interpolate_, acceptAll_}) {
+    b->setProperty("narrow", true);
+    fill->addWidget(b, 1);
+  }
   side->addLayout(fill);
   import_ = button("importButton", tr("Import outlines…"), QStringLiteral("import"),
                    tr("RT Structure Set, contour file or mask (Ctrl+I)"));

@@ -45,6 +45,7 @@ QString styleSheet(const Colours& c) {
     QPushButton:disabled { color: %faint; border-color: %raised; }
     QPushButton[primary="true"] { background: %accent; color: %accentText; border-color: %accent; font-weight: 600; }
     QPushButton[primary="true"]:disabled { background: %raised; color: %faint; border-color: %raised; }
+    QPushButton[narrow="true"] { padding: 6px 4px; }
     QPushButton[flat="true"] { background: transparent; border-color: transparent; padding: 5px 8px; }
     QPushButton[flat="true"]:hover { background: %raised; } QPushButton[flat="true"]:disabled { color: %faint; }
     QPushButton:checked, QPushButton[flat="true"]:checked { background: %accent; color: %accentText; border-color: %accent; }

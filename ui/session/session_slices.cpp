@@ -149,7 +149,8 @@ void Session::loadSecondReader(const QString& file) {
   if (!file.isEmpty()) {
     if (!images_.mri) throw BadInput("open images first; outlines belong to an image series");
     const std::filesystem::path path = file.toStdString();
-    const std::filesystem::path contours = isCase(path) ? path.parent_path() / "contours.json" : path;
+    const std::filesystem::path folder = std::filesystem::is_directory(path) ? path : path.parent_path();
+    const std::filesystem::path contours = isCase(path) ? folder / "contours.json" : path;
     pipeline::LoadedRoi roi = pipeline::loadRoi(contours, {}, 0);
     if (!roi.contours) throw BadInput("a second reader's outlines are polygons: a contour file or RT Structure Set");
     second_ = std::move(*roi.contours);

@@ -25,6 +25,7 @@ void MeasureTool::release(const Eigen::Vector2d& px, const SlicePlane& plane) {
   const bool dragged = (px - pressed_px_).norm() > reach::drag_px;
   if (!dragged && !second_) return;  // the first of two clicks
   if (inWork_->length_mm() > 0.0) distances_.push_back(*inWork_);
+  if (distances_.size() > kept) distances_.erase(distances_.begin());
   inWork_.reset();
 }
 

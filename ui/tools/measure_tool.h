@@ -14,9 +14,11 @@ struct Distance {
   double length_mm() const { return (to_lps_mm - from_lps_mm).norm(); }
 };
 
-/// Measures distances: press and drag, or click both ends. What was measured stays on its slice until it is removed.
+/// Measures distances: press and drag, or click both ends. What was measured stays on its slice until it is removed,
+/// the newest distances of all.
 class MeasureTool {
  public:
+  static constexpr std::size_t kept = 100;
   void press(const Eigen::Vector2d& px, const SlicePlane& plane);
   void move(const Eigen::Vector2d& px, const SlicePlane& plane);
   void release(const Eigen::Vector2d& px, const SlicePlane& plane);
