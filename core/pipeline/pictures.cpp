@@ -82,10 +82,17 @@ std::vector<std::filesystem::path> drawSlices(const PictureData& data, const Pic
     files.push_back(folder / name);
     render::writePng(files.back(), picture, options.dpi);
   };
-  const auto draw = [&](const std::string& name, int slice, const std::optional<Eigen::Vector3d>& zoom) {
+  std::vector<std::string> names;
+  std::vector<render::SliceOverlayOptions> overlays;
+  const auto plan = [&](const std::string& name, int slice, const std::optional<Eigen::Vector3d>& zoom) {
     o.slice = slice;
     o.zoomCentre_lps_mm = zoom ? *zoom : placeOfLargestDifference(scene, slice);
-    write(name, render::sliceOverlay(scene, o));
+    names.push_back(name);
+    overlays.push_back(o);
+  };
+  const auto drawPlanned = [&] {
+    const std::vector<render::Picture> pictures = render::sliceOverlays(scene, overlays);
+    for (std::size_t n = 0; n < names.size(); ++n) write(names[n], pictures[n]);
   };
   render::MapOptions map{.high = 10.0};
   map.margin_mm = 30.0;
@@ -95,17 +102,21 @@ std::vector<std::filesystem::path> drawSlices(const PictureData& data, const Pic
       if (slice < 0 || slice >= scene.mri.grid.size.z())
         throw BadInput("there is no slice " + std::to_string(slice) + ": the image has slices 0 to " +
                        std::to_string(scene.mri.grid.size.z() - 1));
-      draw("overlay-slice-" + std::to_string(slice) + ".png", slice, {});
+      plan("overlay-slice-" + std::to_string(slice) + ".png", slice, {});
+    }
+    drawPlanned();
+    for (const int slice : options.slices) {
       map.slice = slice;
       write("difference-map-slice-" + std::to_string(slice) + ".png", render::differencePicture(scene, map));
     }
     return files;
   }
   const int largest = render::sliceOfLargestDifference(scene);
-  draw("overlay-largest-difference.png", largest, {});
-  if (data.vessel_lps_mm) draw("overlay-vessels.png", sliceOf(scene.mri.grid, *data.vessel_lps_mm), data.vessel_lps_mm);
+  plan("overlay-largest-difference.png", largest, {});
+  if (data.vessel_lps_mm) plan("overlay-vessels.png", sliceOf(scene.mri.grid, *data.vessel_lps_mm), data.vessel_lps_mm);
   if (scene.retractorPoint_lps_mm)
-    draw("overlay-retractor.png", sliceOf(scene.mri.grid, *scene.retractorPoint_lps_mm), {});
+    plan("overlay-retractor.png", sliceOf(scene.mri.grid, *scene.retractorPoint_lps_mm), {});
+  drawPlanned();
   map.slice = largest;
   write("difference-map.png", render::differencePicture(scene, map));
   return files;

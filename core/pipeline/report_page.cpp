@@ -14,8 +14,12 @@ namespace {
 using report::HtmlReport;
 using report::number;
 
+/// Components that are rounding beside the largest are zero.
 std::string inWords(const Eigen::Vector3d& v) {
-  return number(v.x()) + ", " + number(v.y()) + ", " + number(v.z());
+  const auto part = [least = 1e-6 * v.cwiseAbs().maxCoeff()](double x) {
+    return std::abs(x) <= least ? std::string("0") : number(x);
+  };
+  return part(v.x()) + ", " + part(v.y()) + ", " + part(v.z());
 }
 
 void results(HtmlReport& page, const RunResult& r) {

@@ -1,8 +1,10 @@
 #include "render/chart_frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "base/error.h"
 #include "render/colour_map.h"
@@ -152,10 +154,54 @@ void drawAxisY(Painter& paint, const ChartFrame& frame, const Scale& scale, cons
 void drawHorizontal(Painter& paint, const ChartFrame& frame, const Scale& y, const std::vector<ReferenceLine>& lines) {
   for (const ReferenceLine& line : lines) {
     const double at = y(line.value);
+    if (at >= frame.y0 - 1.0 && at <= frame.y1 + 1.0)
+      paint.line({frame.x0, at}, {frame.x1, at}, {.colour = line.colour, .width = frame.font / 7.0});
+  }
+}
+
+void labelHorizontal(Painter& paint, const ChartFrame& frame, const Scale& y, const std::vector<ReferenceLine>& lines,
+                     std::vector<Stretch> drawn) {
+  const double f = frame.font;
+  for (const ReferenceLine& line : lines) drawn.push_back({{frame.x0, y(line.value)}, {frame.x1, y(line.value)}});
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    const double at = y(lines[n].value);
     if (!(at >= frame.y0 - 1.0 && at <= frame.y1 + 1.0)) continue;
-    paint.line({frame.x0, at}, {frame.x1, at}, {.colour = line.colour, .width = frame.font / 7.0});
-    paint.text({frame.x1 - 0.3 * frame.font, at - 0.35 * frame.font}, line.label,
-               {.size_px = 0.9 * frame.font, .colour = line.colour, .anchor = Anchor::Right, .bold = true});
+    const double width = textWidth(lines[n].label, 0.9 * f, true);
+    const std::size_t own = drawn.size() - lines.size();  // the lines come last; labels placed before go in front
+    // To cover a marker is worse than to cross a line.
+    const auto harm = [&](const Point& low, const Point& high) {
+      std::size_t sum = 0;
+      for (std::size_t s = 0; s < drawn.size(); ++s) {
+        if (s == own + n) continue;
+        const auto& [from, to] = drawn[s];
+        const double length = (to - from).norm(), apart = (length > 0.0 ? 0.15 : 0.55) * f;
+        const int steps = 1 + static_cast<int>(length / (0.25 * f));
+        for (int step = 0; step <= steps; ++step) {
+          const Point p = from + (to - from) * (static_cast<double>(step) / steps);
+          if ((p.array() > low.array() - apart).all() && (p.array() < high.array() + apart).all()) {
+            sum += length > 0.0 ? 1 : 8;
+            break;
+          }
+        }
+      }
+      return sum;
+    };
+    Point best(frame.x1 - 0.3 * f, at - 0.35 * f);
+    std::size_t least = std::numeric_limits<std::size_t>::max();
+    // Close above, close below; where both are full all along the line, one row further off.
+    for (const std::array<double, 2>& rows : {std::array{-0.35, 1.05}, std::array{-1.35, 2.05}})
+      for (double right = frame.x1 - 0.3 * f; right - width > frame.x0 + 0.3 * f && least > 0; right -= 0.5 * f)
+        for (const double row : rows) {
+          const double baseline = at + row * f;
+          if (baseline - 0.8 * f < frame.y0 || baseline > frame.y1 - 0.2 * f) continue;
+          const std::size_t found = harm({right - width, baseline - 0.75 * f}, {right, baseline + 0.15 * f});
+          if (found >= least) continue;
+          least = found;
+          best = {right, baseline};
+        }
+    paint.text(best, lines[n].label,
+               {.size_px = 0.9 * f, .colour = lines[n].colour, .anchor = Anchor::Right, .bold = true});
+    drawn.insert(drawn.begin(), {{best.x() - width, best.y() - 0.35 * f}, {best.x(), best.y() - 0.35 * f}});
   }
 }
 

@@ -42,6 +42,12 @@ ChartFrame beginChart(Painter& paint, const ChartSize& size, const std::string& 
 void drawAxisX(Painter& paint, const ChartFrame& frame, const Scale& scale, const std::string& title, bool grid);
 void drawAxisY(Painter& paint, const ChartFrame& frame, const Scale& scale, const std::string& title);
 void drawHorizontal(Painter& paint, const ChartFrame& frame, const Scale& y, const std::vector<ReferenceLine>& lines);
+
+/// The labels of horizontal lines, each where it covers none of what is drawn (pixels; a point is a stretch of no
+/// length), at the right end where that is free. To be called after the rest, in the order of the lines.
+using Stretch = std::pair<Point, Point>;
+void labelHorizontal(Painter& paint, const ChartFrame& frame, const Scale& y, const std::vector<ReferenceLine>& lines,
+                     std::vector<Stretch> drawn);
 void drawVertical(Painter& paint, const ChartFrame& frame, const Scale& x, const std::vector<ReferenceLine>& lines);
 
 /// A number as short as it can be said: 0.0164, 1.5, 200, 3×10⁶.

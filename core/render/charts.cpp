@@ -91,6 +91,7 @@ void paintChart(Painter& paint, const BoxPlot& chart, const ChartSize& size) {
   const double f = frame.font, slot = (frame.x1 - gutter - frame.x0) / static_cast<double>(groups.size());
   const double half = std::min(0.28 * slot, 4.5 * f);
   const Stroke pen{.colour = ink, .width = f / 9.0};
+  std::vector<Stretch> taken;
   for (std::size_t n = 0; n < groups.size(); ++n) {
     const double x = frame.x0 + (static_cast<double>(n) + 0.5) * slot;
     paint.text({x, frame.y1 + 1.5 * f}, chart.boxes[n].label, {.size_px = f, .colour = ink, .anchor = Anchor::Centre});
@@ -106,8 +107,11 @@ void paintChart(Painter& paint, const BoxPlot& chart, const ChartSize& size) {
     paint.frame(x - half, y(box.upperQuartile), x + half, y(box.lowerQuartile), pen);
     paint.line({x - half, y(box.median)}, {x + half, y(box.median)}, {.colour = ink, .width = f / 5.0});
     for (const double v : box.outliers) paint.disc({x, y(v)}, f / 4.0, ink, 0.8);
+    const auto [least, most] = std::minmax_element(groups[n].begin(), groups[n].end());
+    for (const double side : {-half, 0.0, half}) taken.push_back({{x + side, y(*least)}, {x + side, y(*most)}});
   }
   drawHorizontal(paint, frame, y, chart.lines);
+  labelHorizontal(paint, frame, y, chart.lines, std::move(taken));
   paint.line({frame.x0, frame.y1}, {frame.x1, frame.y1}, {.colour = ink, .width = f / 12.0});
 }
 
@@ -168,6 +172,7 @@ void paintChart(Painter& paint, const XyChart& chart, const ChartSize& size) {
   drawAxisX(paint, frame, x, chart.x.title, true);
   drawHorizontal(paint, frame, y, chart.lines);
 
+  std::vector<Stretch> taken;
   const Point firstEntry(frame.x0, frame.y0 - 0.8 * f - next.y());
   if (chart.paretoFront) {
     const std::vector<std::size_t> front = paretoFront(allX, allY);
@@ -178,6 +183,7 @@ void paintChart(Painter& paint, const XyChart& chart, const ChartSize& size) {
     }
     const Stroke stair{.colour = {120, 126, 134}, .width = f / 8.0, .dashed = true};
     paint.polyline(steps, stair);
+    for (std::size_t n = 1; n < steps.size(); ++n) taken.emplace_back(steps[n - 1], steps[n]);
     for (const std::size_t n : front) paint.disc({x(allX[n]), y(allY[n])}, 0.62 * f, {255, 205, 70});
     paint.disc(firstEntry + Point(0.6 * f, -0.35 * f), 0.55 * f, {255, 205, 70});
     paint.text(firstEntry + Point(1.5 * f, 0.0), entries.front(), {.size_px = f, .colour = ink});
@@ -205,11 +211,16 @@ void paintChart(Painter& paint, const XyChart& chart, const ChartSize& size) {
       if (usable(series.x[n], series.y[n])) points.emplace_back(x(series.x[n]), y(series.y[n]));
     if (series.joined) paint.polyline(points, pen);
     if (series.markers) std::for_each(points.begin(), points.end(), marker);
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      if (series.markers || !series.joined) taken.emplace_back(points[n], points[n]);
+      if (series.joined && n > 0) taken.emplace_back(points[n - 1], points[n]);
+    }
     const Point entry = firstEntry + place[s + (chart.paretoFront ? 1 : 0)];
     if (series.joined) paint.line(entry + Point(0.0, -0.35 * f), entry + Point(1.6 * f, -0.35 * f), pen);
     if (series.markers) marker(entry + Point(0.8 * f, -0.35 * f));
     paint.text(entry + Point(2.0 * f, 0.0), series.name, {.size_px = f, .colour = ink});
   }
+  labelHorizontal(paint, frame, y, chart.lines, std::move(taken));
 }
 
 template <typename Chart>

@@ -63,6 +63,9 @@ struct SliceOverlayOptions {
 /// Throws BadInput where a grid is not usable, BadArgument where an option is out of range.
 Picture sliceOverlay(const RetractionScene& scene, const SliceOverlayOptions& options = {});
 
+/// Several slices of one scene: what they share is made once; each picture is the one that sliceOverlay gives.
+std::vector<Picture> sliceOverlays(const RetractionScene& scene, const std::vector<SliceOverlayOptions>& options);
+
 /// Slice index with the largest difference between the two fields inside the liver.
 int sliceOfLargestDifference(const RetractionScene& scene);
 

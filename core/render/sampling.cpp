@@ -1,6 +1,7 @@
 #include "render/sampling.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -71,13 +72,27 @@ image::DisplacementField extended(const image::DisplacementField& u_mm, const im
   });
 
   const int passes = std::clamp(static_cast<int>(std::ceil(reach_mm / grid.spacing_mm.minCoeff())), 1, 250);
-  const auto eachNeighbour = [&grid](int i, int j, int k, auto&& visit) {
-    for (int dk = -1; dk <= 1; ++dk)
-      for (int dj = -1; dj <= 1; ++dj)
-        for (int di = -1; di <= 1; ++di) {
-          const Eigen::Vector3i q(i + di, j + dj, k + dk);
-          if ((di != 0 || dj != 0 || dk != 0) && grid.contains(q)) visit(grid.linear(q), q);
-        }
+  const auto inside = [&grid](const Eigen::Vector3i& c) {
+    return (c.array() > 0).all() && (c.array() + 1 < grid.size.array()).all();
+  };
+  std::array<Eigen::Vector3i, 26> steps;
+  std::array<std::ptrdiff_t, 26> jumps;
+  const auto jumpOf = [&grid](const Eigen::Vector3i& d) {
+    return d.x() + std::ptrdiff_t{grid.size.x()} * (d.y() + std::ptrdiff_t{grid.size.y()} * d.z());
+  };
+  for (std::size_t n = 0, m = 0; n < 27; ++n) {
+    const auto i = static_cast<int>(n);
+    if (n == 13) continue;
+    steps[m] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+    jumps[m] = jumpOf(steps[m]);
+    ++m;
+  }
+  /// visit(index, step) for all that lie in the grid; most voxels have all of them, which need no test.
+  const auto eachNeighbour = [&](const Eigen::Vector3i& c, auto&& visit) {
+    const auto at = static_cast<std::ptrdiff_t>(grid.linear(c));
+    const bool all = inside(c);
+    for (std::size_t m = 0; m < steps.size(); ++m)
+      if (all || grid.contains(Eigen::Vector3i(c + steps[m]))) visit(static_cast<std::size_t>(at + jumps[m]), m);
   };
   std::vector<Eigen::Vector3i> front, reached;
   for (int k = 0; k < grid.size.z(); ++k)
@@ -87,15 +102,15 @@ image::DisplacementField extended(const image::DisplacementField& u_mm, const im
   for (int pass = 1; pass <= passes && !front.empty(); ++pass) {
     std::vector<Eigen::Vector3i> next;
     for (const Eigen::Vector3i& c : front)
-      eachNeighbour(c.x(), c.y(), c.z(), [&](std::size_t n, const Eigen::Vector3i& q) {
+      eachNeighbour(c, [&](std::size_t n, std::size_t m) {
         if (layer[n] != 255) return;
         layer[n] = static_cast<std::uint8_t>(pass);
-        next.push_back(q);
+        next.emplace_back(c + steps[m]);
       });
     for (const Eigen::Vector3i& c : next) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       int count = 0;
-      eachNeighbour(c.x(), c.y(), c.z(), [&](std::size_t n, const Eigen::Vector3i&) {
+      eachNeighbour(c, [&](std::size_t n, std::size_t) {
         if (layer[n] >= pass) return;
         sum += out.values[n];
         ++count;
@@ -106,22 +121,44 @@ image::DisplacementField extended(const image::DisplacementField& u_mm, const im
     front = std::move(next);
   }
   // Fronts from two sides meet in a crease, where x + u(x) could fold: relax it towards a harmonic continuation.
+  // What each voxel takes is the same in every sweep: neighbours in the order of the axes, weights 1/spacing².
+  struct Relaxed {
+    std::size_t voxel;
+    std::array<std::int8_t, 6> side;  // which neighbours count
+    int count;
+    float weight;
+  };
+  std::array<std::ptrdiff_t, 6> sideJump;
+  std::array<Eigen::Vector3i, 6> sideStep;
+  std::array<float, 6> sideWeight;
+  for (std::size_t n = 0; n < 6; ++n) {
+    const auto axis = static_cast<int>(n / 2);
+    sideStep[n] = (n % 2 == 0 ? -1 : 1) * Eigen::Vector3i::Unit(axis);
+    sideJump[n] = jumpOf(sideStep[n]);
+    sideWeight[n] = static_cast<float>(1.0 / (grid.spacing_mm[axis] * grid.spacing_mm[axis]));
+  }
+  std::vector<Relaxed> relaxed;
+  relaxed.reserve(reached.size());
+  for (const Eigen::Vector3i& c : reached) {
+    Relaxed r{grid.linear(c), {}, 0, 0.0F};
+    for (std::size_t n = 0; n < 6; ++n) {
+      const Eigen::Vector3i q = c + sideStep[n];
+      if (!grid.contains(q) || layer[grid.linear(q)] == 255) continue;
+      r.side[static_cast<std::size_t>(r.count++)] = static_cast<std::int8_t>(n);
+      r.weight += sideWeight[n];
+    }
+    if (r.count > 0) relaxed.push_back(r);
+  }
   constexpr int sweeps = 12;
   for (int sweep = 0; sweep < sweeps; ++sweep)
-    for (std::size_t m = 0; m < reached.size(); ++m) {
-      const Eigen::Vector3i& c = reached[m];
+    for (const Relaxed& r : relaxed) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-      float weight = 0.0F;
-      for (int axis = 0; axis < 3; ++axis)
-        for (const int side : {-1, 1}) {
-          Eigen::Vector3i q = c;
-          q[axis] += side;
-          if (!grid.contains(q) || layer[grid.linear(q)] == 255) continue;
-          const auto w = static_cast<float>(1.0 / (grid.spacing_mm[axis] * grid.spacing_mm[axis]));
-          sum += w * out.values[grid.linear(q)];
-          weight += w;
-        }
-      if (weight > 0.0F) out.values[grid.linear(c)] = sum / weight;
+      for (int n = 0; n < r.count; ++n) {
+        const auto side = static_cast<std::size_t>(r.side[static_cast<std::size_t>(n)]);
+        sum += sideWeight[side] *
+               out.values[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(r.voxel) + sideJump[side])];
+      }
+      out.values[r.voxel] = sum / r.weight;
     }
   return out;
 }

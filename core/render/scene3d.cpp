@@ -23,6 +23,7 @@ namespace glisson::render {
 namespace {
 
 constexpr double grid_mm = 10.0;
+constexpr const char* gridEntry = "grid 10 mm, labels in cm";  ///< the longest of the legend
 constexpr double apart_mm = 3.0;  ///< vessels that lie this far apart have fully their own colour
 
 struct SceneColours {
@@ -66,24 +67,28 @@ class Stage {
   void add(const vtkSmartPointer<vtkProp>& prop) { renderer_->AddViewProp(prop); }
 
   /// Grid walls behind and below, centimetre labels and letters of the patient's sides along their edges, a 5 cm bar.
+  /// A number that would stand in a letter or another number is left out. After aim().
   void drawGrid(const Eigen::AlignedBox3d& box) {
     for (const auto& [axis, upper] : view_.walls) {
       const double at = upper ? box.max()[axis] : box.min()[axis];
       add(gridLines(box, axis, at, grid_mm, false, line_px_));
       add(gridLines(box, axis, at, grid_mm, true, 1.6 * line_px_));
     }
-    const double off = 0.035 * box.diagonal().norm();
+    const double off = labelOffset_mm(box);
     constexpr const char* sides[3][2] = {{"R", "L"}, {"A", "P"}, {"I", "S"}};
-    for (const LabelledEdge& edge : labelledEdges(view_, box)) {
+    const std::vector<LabelledEdge> edges = labelledEdges(view_, box);
+    for (const LabelledEdge& edge : edges)
+      for (const int end : {0, 1}) {
+        Eigen::Vector3d at = edge.low;
+        at[edge.axis] = end ? box.max()[edge.axis] + 1.4 * off : box.min()[edge.axis] - 1.4 * off;
+        takeRoom(at, sides[edge.axis][end], 1.5 * font_px_);
+        add(label3D(at, sides[edge.axis][end], colours::light, 1.5 * font_px_, true));
+      }
+    for (const LabelledEdge& edge : edges) {
       Eigen::Vector3d at = edge.low + off * edge.outward;
       for (const double v : gridLines_mm(box.min()[edge.axis], box.max()[edge.axis], 20.0)) {
         at[edge.axis] = v + off * edge.outward[edge.axis];
-        add(label3D(at, cm(v), colours::gridGreen, 0.8 * font_px_, false));
-      }
-      for (const int end : {0, 1}) {
-        at = edge.low;
-        at[edge.axis] = end ? box.max()[edge.axis] + 1.4 * off : box.min()[edge.axis] - 1.4 * off;
-        add(label3D(at, sides[edge.axis][end], colours::light, 1.5 * font_px_, true));
+        if (takeRoom(at, cm(v), 0.8 * font_px_)) add(label3D(at, cm(v), colours::gridGreen, 0.8 * font_px_, false));
       }
     }
 
@@ -119,7 +124,7 @@ class Stage {
     row(colour.agree, "agree");
     row({150, 158, 168}, "liver at rest");
     if (scene.retractorPoint_lps_mm) row({205, 210, 216}, "retractor");
-    row({50, 170, 95}, "grid 10 mm, labels in cm");
+    row({50, 170, 95}, gridEntry);
     if (t < 1.0)
       add(screenText(x, y, std::to_string(std::lround(100.0 * t)) + " % of the retraction", colours::light, font_px_,
                      false));
@@ -157,9 +162,16 @@ class Stage {
     }
     const bool narrow = width_ < height_;  // the legend stands above the scene, not beside it
     const double margin = decorated ? 1.5 : 1.04, marginAside = decorated && narrow ? 1.3 : margin;
-    const double scale = std::max(margin * halfHeight, marginAside * halfWidth * height_ / width_);
+    double scale = std::max(margin * halfHeight, marginAside * halfWidth * height_ / width_);
     const double distance = 4.0 * box.diagonal().norm();
-    const double aside = decorated && !narrow ? 0.09 * scale : 0.0;  // room for the legend on the left
+    double aside = 0.0;
+    if (decorated && !narrow) {  // the legend has the left side to itself
+      const double reach = halfWidth + 2.0 * labelOffset_mm(box), legend_px = legendWidth_px();
+      scale = std::max(scale, reach * height_ / (width_ - legend_px - font_px_));
+      const double perMm = 0.5 * height_ / scale;
+      aside = std::max(0.09 * scale, (legend_px - 0.5 * width_) / perMm + reach);
+    }
+    mmPerPixel_ = 2.0 * scale / height_;
     const Eigen::Vector3d focus = centre - (decorated ? 0.13 * scale : 0.0) * up - aside * right;
     const Eigen::Vector3d eye = focus - distance * view_.fromEye;
     camera->ParallelProjectionOn();
@@ -167,13 +179,30 @@ class Stage {
     camera->SetPosition(eye.data());
     camera->SetViewUp(up.data());
     camera->SetParallelScale(scale);
-    renderer_->ResetCameraClippingRange();
   }
 
  private:
+  /// How far from its edge a label stands.
+  static double labelOffset_mm(const Eigen::AlignedBox3d& box) { return 0.035 * box.diagonal().norm(); }
+
+  double legendWidth_px() const { return 3.2 * font_px_ + textWidth(gridEntry, font_px_); }
+
+  /// Whether the text covers none that was placed before; its room is taken then.
+  bool takeRoom(const Eigen::Vector3d& at_lps, const std::string& text, double size_px) {
+    const Eigen::Vector2d middle = Eigen::Vector2d(at_lps.dot(view_.right), at_lps.dot(view_.up)) / mmPerPixel_;
+    const Eigen::Vector2d half(0.5 * textWidth(text, size_px) + 0.2 * size_px, 0.45 * size_px);
+    const Eigen::AlignedBox2d room(middle - half, middle + half);
+    for (const Eigen::AlignedBox2d& other : taken_px_)
+      if (room.intersects(other)) return false;
+    taken_px_.push_back(room);
+    return true;
+  }
+
   vtkRenderer* renderer_;
   Viewpoint view_;
   double width_, height_, font_px_, line_px_;
+  double mmPerPixel_ = 1.0;
+  std::vector<Eigen::AlignedBox2d> taken_px_;  ///< on the screen, from the projection of the patient's origin
 };
 
 }  // namespace
@@ -241,12 +270,13 @@ void populateScaled(vtkRenderer* renderer, const RetractionScene& scene, const S
     }
   }
   box = roundedOut({box.min() - Eigen::Vector3d::Constant(4.0), box.max() + Eigen::Vector3d::Constant(4.0)}, grid_mm);
+  stage.aim(box, options.decorate);
   if (options.decorate) {
     stage.drawGrid(box);
     stage.drawText(scene, colour, options.t);
   }
   if (!scene.valid) stage.drawNotValidMark();
-  stage.aim(box, options.decorate);
+  renderer->ResetCameraClippingRange();
 }
 
 void populate3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -50,11 +51,22 @@ Window windowOf(const image::ScalarVolume& mri, const image::ScalarVolume& liver
 struct State {
   image::DisplacementField u_mm;  ///< carried on beyond the liver
   InverseMap inverse;
-  State(const image::DisplacementField& field, const image::ScalarVolume& liver, double reach_mm)
-      : u_mm(extended(field, liver, reach_mm)), inverse(u_mm, true) {}
+  explicit State(image::DisplacementField carriedOn) : u_mm(std::move(carriedOn)), inverse(u_mm, true) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 };
+
+/// Both fields carried on beyond the liver, side by side.
+std::array<image::DisplacementField, 2> carriedOn(const RetractionScene& scene, const image::ScalarVolume& liver) {
+  const std::array<const image::DisplacementField*, 2> fields{&scene.u_mre_mm, &scene.u_atlas_mm};
+  const double reach_mm = std::max(largestDisplacement_mm(*fields[0]), largestDisplacement_mm(*fields[1])) +
+                          3.0 * liver.grid.spacing_mm.maxCoeff();
+  std::array<image::DisplacementField, 2> out;
+  parallelChunks(fields.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) out[n] = extended(*fields[n], liver, reach_mm);
+  });
+  return out;
+}
 
 class Composer {
  public:
@@ -62,10 +74,9 @@ class Composer {
       : scene_(scene),
         liver_(asScalar(scene.liver)),
         window_(windowOf(scene.mri, liver_)),
-        reach_mm_(std::max(largestDisplacement_mm(scene.u_mre_mm), largestDisplacement_mm(scene.u_atlas_mm)) +
-                  3.0 * liver_.grid.spacing_mm.maxCoeff()),
-        mre_(scene.u_mre_mm, liver_, reach_mm_),
-        atlas_(scene.u_atlas_mm, liver_, reach_mm_) {}
+        fields_(carriedOn(scene, liver_)),
+        mre_(std::move(fields_[0])),
+        atlas_(std::move(fields_[1])) {}
 
   Picture draw(const SlicePlane& plane, const SliceOverlayOptions& options) const {
     const Palette palette = options.palette;
@@ -214,7 +225,7 @@ class Composer {
   const RetractionScene& scene_;
   image::ScalarVolume liver_;
   Window window_;
-  double reach_mm_;
+  std::array<image::DisplacementField, 2> fields_;  ///< on their way into the states
   State mre_, atlas_;
 };
 
@@ -240,18 +251,11 @@ std::string formatted(const char* pattern, double a, double b = 0.0) {
   return text;
 }
 
-}  // namespace
-
-Picture sliceOverlay(const RetractionScene& scene, const SliceOverlayOptions& options) {
-  scene.mri.grid.check();
-  scene.liver.grid.check();
-  scene.u_mre_mm.grid.check();
-  scene.u_atlas_mm.grid.check();
+Picture overlayOf(const Composer& composer, const RetractionScene& scene, const SliceOverlayOptions& options) {
   if (!(options.grid_mm > 0.0) || !(options.zoom_mm > 0.0))
     throw BadArgument("grid spacing and zoom width must be positive millimetres");
   const int k = options.slice < 0 ? sliceOfLargestDifference(scene) : options.slice;
   SlicePlane plane = planeOfSlice(scene.mri.grid, k, options.pixelsPerVoxel);
-  const Composer composer(scene);
   if (options.margin_mm) {
     const auto [low, high] = composer.liverBox(plane);
     const Eigen::Vector2d margin = Eigen::Vector2d::Constant(*options.margin_mm / plane.mmPerPixel);
@@ -285,6 +289,23 @@ Picture sliceOverlay(const RetractionScene& scene, const SliceOverlayOptions& op
         formatted("× %.1f, %g mm wide", plane.mmPerPixel / frame.insetPlane->mmPerPixel, options.zoom_mm);
   }
   return frameSlice(picture, frame);
+}
+
+}  // namespace
+
+std::vector<Picture> sliceOverlays(const RetractionScene& scene, const std::vector<SliceOverlayOptions>& options) {
+  scene.mri.grid.check();
+  scene.liver.grid.check();
+  scene.u_mre_mm.grid.check();
+  scene.u_atlas_mm.grid.check();
+  const Composer composer(scene);
+  std::vector<Picture> pictures;
+  for (const SliceOverlayOptions& one : options) pictures.push_back(overlayOf(composer, scene, one));
+  return pictures;
+}
+
+Picture sliceOverlay(const RetractionScene& scene, const SliceOverlayOptions& options) {
+  return std::move(sliceOverlays(scene, {options}).front());
 }
 
 CountedPixels countChannels(const Picture& overlay, int threshold) {
