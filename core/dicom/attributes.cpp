@@ -4,7 +4,9 @@
 #include <dcmtk/dcmdata/dctk.h>
 
 #include <dcmtk/dcmdata/dcistrmb.h>
+#include <dcmtk/dcmdata/dcspchrs.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <mutex>
@@ -89,6 +91,19 @@ std::string cleaned(const std::string& raw) {
 
 std::string shownText(DcmItem& item, const DcmTagKey& tag) {
   return cleaned(text(item, tag));
+}
+
+std::string unifiedText(DcmItem& item, const DcmTagKey& tag) {
+  const std::string raw = text(item, tag);
+  const bool plain = std::all_of(raw.begin(), raw.end(), [](char c) { return c >= 0x20 && c < 0x7F; });
+  if (plain || raw.size() > 1024) return raw;
+  DcmSpecificCharacterSet characters;
+  OFString unified;
+  const std::string named = text(item, DCM_SpecificCharacterSet);
+  if (characters.selectCharacterSet(named.c_str(), "ISO_IR 192").bad() ||
+      characters.convertString(raw.c_str(), raw.size(), unified, tag == DCM_PatientName ? "\\^=" : "\\").bad())
+    return raw;
+  return trimmed(std::string(unified.c_str(), unified.size()));
 }
 
 std::string nameOf(const DcmTagKey& key) {

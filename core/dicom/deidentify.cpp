@@ -321,9 +321,9 @@ DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesyst
         throw BadInput("is a directory of files (DICOMDIR), which names the patient");
       if (text(data, DCM_SOPInstanceUID).empty()) throw BadInput("has no SOP Instance UID");
       if (const std::string risk = pixelRisk(data); !risk.empty()) throw BadInput(risk);
-      const std::string patient =
-          keyedDigest(key, "patient/" + text(data, DCM_PatientID) + "/" + text(data, DCM_IssuerOfPatientID) +
-                               (text(data, DCM_PatientID).empty() ? text(data, DCM_PatientName) : std::string()));
+      const std::string patient = keyedDigest(
+          key, "patient/" + unifiedText(data, DCM_PatientID) + "/" + unifiedText(data, DCM_IssuerOfPatientID) +
+                   (text(data, DCM_PatientID).empty() ? unifiedText(data, DCM_PatientName) : std::string()));
       Case c{key, options, "G-" + patient.substr(0, 12), 0, {}, 0};
       c.shift_days = -1 - static_cast<int>(std::stoul(patient.substr(12, 6), nullptr, 16) % 3650);
       const std::string study = options.cleanDescriptors ? knownWords(text(data, DCM_StudyDescription)) : std::string();

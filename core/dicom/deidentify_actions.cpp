@@ -45,6 +45,7 @@ constexpr Row rows[] = {
     {0x00081032, Action::Remove},          // Procedure Code Sequence
     {0x0008103E, Action::Remove},          // Series Description; replaced by the role
     {0x0008103F, Action::Remove},          // Series Description Code Sequence
+    {0x00081070, Action::Empty},           // Operators' Name, X/Z/D: Type 2 in RT Structure Sets
     {0x00081080, Action::Remove},          // Admitting Diagnoses Description
     {0x00081084, Action::Remove},          // Admitting Diagnoses Code Sequence
     {0x00081090, Action::Keep},            // Manufacturer's Model Name
@@ -84,7 +85,7 @@ constexpr Row rows[] = {
     {0x00209161, Action::Uid},             // Concatenation UID
     {0x00209164, Action::Uid},             // Dimension Organization UID
     {0x00282110, Action::Keep},            // Lossy Image Compression
-    {0x00283003, Action::Remove},          // LUT Explanation
+    {0x00283003, Action::Dummy},           // LUT Explanation: Type 1 in real-world value maps
     {0x00400244, Action::Remove},          // Performed Procedure Step Start Date
     {0x00400245, Action::Remove},          // Performed Procedure Step Start Time
     {0x00400253, Action::Remove},          // Performed Procedure Step ID
@@ -149,8 +150,9 @@ Action actionFor(DcmElement& element) {
   const auto* row = std::find_if(std::begin(rows), std::end(rows), [&](const Row& r) { return r.tag == tag; });
   if (row != std::end(rows)) return row->action;
   const std::uint32_t group = tag >> 16;
-  if ((group & 1U) != 0) return Action::Remove;                   // private; the safe list is asked before
-  if (group >= 0x5000 && group <= 0x60FF) return Action::Remove;  // curves and overlays
+  if ((group & 1U) != 0) return Action::Remove;  // private; the safe list is asked before
+  const std::uint32_t repeating = group >> 8;
+  if (repeating == 0x50 || repeating == 0x60) return Action::Remove;  // curves and overlays
   if (group == 0x0010 || group == 0x0012 || group == 0x0032 || group == 0x0038 || group == 0x4008 || group == 0x4000)
     return Action::Remove;  // patient, trial, order, visit, interpretation
   if (isCoded(tag)) return Action::Keep;

@@ -163,7 +163,7 @@ ImageHeader parsed(const std::filesystem::path& file, const ByteSource& source, 
       h.warnings.push_back(nameOf(DCM_SOPInstanceUID) + " is no valid UID");
       h.sopInstanceUid.clear();
     }
-    const std::string identity = text(data, DCM_PatientID) + '\0' + text(data, DCM_PatientName);
+    const std::string identity = unifiedText(data, DCM_PatientID) + '\0' + unifiedText(data, DCM_PatientName);
     h.patientKey = sha256(identity.data(), identity.size());
     h.description = shownText(data, DCM_SeriesDescription);
     h.imageType = shownText(data, DCM_ImageType);

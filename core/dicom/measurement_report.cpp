@@ -163,7 +163,8 @@ void writeMeasurementReport(const std::filesystem::path& file, const std::vector
   checkReferable(source, "a measurement report");
   if (regions.empty()) throw BadArgument("a measurement report needs at least one region");
   std::string identity = "sr/" + source.uid + "/" + std::to_string(seed) + "/" + segmentation.sopInstanceUid;
-  for (const ReportedStiffness& r : regions) identity += "/" + r.name + std::to_string(r.n) + decimalString(r.mean_kPa);
+  for (const ReportedStiffness& r : regions)
+    identity += "/" + r.name + std::to_string(r.n) + (std::isfinite(r.mean_kPa) ? decimalString(r.mean_kPa) : "");
   const bool shear = quantity == StiffnessQuantity::Shear;
   identity += shear ? "/mu" : "/E";
   DcmDataset image;

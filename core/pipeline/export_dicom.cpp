@@ -65,8 +65,16 @@ void exportReport(ExportCase& c) {
   const dicom::WrittenSegmentation seg =
       dicom::writeSegmentation(c.file("sr-seg.dcm"), liverSegment(roi), mre, c.request().seed);
   std::vector<dicom::ReportedStiffness> regions = {reported("liver", {}, m.pooled)};
-  for (const elastography::SliceStatistics& s : m.slices)
-    regions.push_back(reported("liver, slice " + std::to_string(s.slice + 1), s.slice, s.statistics));
+  std::string without;
+  for (const elastography::SliceStatistics& s : m.slices) {
+    const std::string slice = std::to_string(s.slice + 1);
+    if (s.statistics.n > 0)
+      regions.push_back(reported("liver, slice " + slice, s.slice, s.statistics));
+    else
+      without += (without.empty() ? "" : ", ") + slice;
+  }
+  if (!without.empty())
+    c.warn("no voxel of the region of interest counts on slice " + without + ": left out of the report");
   dicom::writeMeasurementReport(c.file("sr.dcm"), regions, m.quantity, seg, mre, c.request().seed);
 }
 

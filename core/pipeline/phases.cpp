@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "dicom/series.h"
 #include "image/io.h"
+#include "pipeline/file_names.h"
 
 namespace glisson::pipeline {
 namespace {
@@ -24,6 +25,7 @@ using Ordered = std::map<std::pair<int, int>, image::ScalarVolume>;
 
 void readDicom(const std::filesystem::path& path, Ordered& found, LoadedPhases& out, const Progress& progress) {
   const dicom::ScanResult scan = dicom::scan(path, progress);
+  const FileNames names(scan);
   for (const dicom::Series& s : scan.series) {
     if (s.role != dicom::SeriesRole::Phase || s.temporalIndex < 0) continue;
     progress.check();
@@ -31,9 +33,11 @@ void readDicom(const std::filesystem::path& path, Ordered& found, LoadedPhases& 
       throw BadInput("two phase images of one direction and time step were found in '" + path.filename().string() +
                      "'; give the folder of one acquisition");
     if (s.vibration_Hz) out.frequency_Hz = s.vibration_Hz;
-    for (const std::string& warning : s.warnings)
+    for (const std::string& shown : s.warnings) {
+      const std::string warning = names.hiddenIn(shown);
       if (std::find(out.warnings.begin(), out.warnings.end(), warning) == out.warnings.end())
         out.warnings.push_back(warning);
+    }
   }
   if (found.empty())
     throw BadInput("'" + path.filename().string() +

@@ -8,6 +8,7 @@
 #include "dicom/seg.h"
 #include "elastography/roi_from_structures.h"
 #include "image/io.h"
+#include "pipeline/file_names.h"
 #include "roi/contour_io.h"
 #include "roi/interpolate.h"
 #include "roi/plane.h"
@@ -25,9 +26,16 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& from) 
   to.insert(to.end(), from.begin(), from.end());
 }
 
-void noteSkipped(const dicom::ScanResult& scan, std::vector<std::string>& warnings) {
+/// What a series warns about, and the files left out where they are asked for. These words go into records.
+std::vector<std::string> warningsOf(const dicom::ScanResult& scan, const dicom::Series& series, bool skipped) {
+  constexpr std::size_t most = 20;
+  const FileNames names(scan);
+  std::vector<std::string> warnings;
+  for (const std::string& w : series.warnings) warnings.push_back(names.hiddenIn(w));
   for (const dicom::SkippedFile& f : scan.skipped)
-    if (warnings.size() < 20) warnings.push_back("skipped '" + f.file.filename().string() + "': " + f.reason);
+    if (skipped && warnings.size() < most)
+      warnings.push_back("skipped " + names.placeOf(f.file) + ": " + names.hiddenIn(f.reason));
+  return warnings;
 }
 
 /// The series of that role; where no series has it and there is only one, that one.
@@ -78,7 +86,7 @@ AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& pro
   out.frameOfReferenceUid = series.frameOfReferenceUid;
   out.patientKey = series.patientKey;
   out.studyDate = series.studyDate;
-  out.warnings = series.warnings;
+  out.warnings = warningsOf(scan, series, false);
   return out;
 }
 
@@ -114,8 +122,7 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
   out.map.frameOfReferenceUid = series.frameOfReferenceUid;
   out.patientKey = series.patientKey;
   out.studyDate = series.studyDate;
-  append(out.warnings, series.warnings);
-  noteSkipped(scan, out.warnings);
+  append(out.warnings, warningsOf(scan, series, true));
   for (const dicom::Series& s : scan.series)
     if (s.role == dicom::SeriesRole::Confidence && !s.error && s.studyUid == series.studyUid) {
       elastography::attachConfidence(out.map, dicom::readSeries(s, progress.part(0.8, 1.0)));

@@ -25,6 +25,10 @@ std::string text(DcmItem& item, const DcmTagKey& tag);
 /// As text(), as UTF-8 without control characters, at most 64 bytes.
 std::string shownText(DcmItem& item, const DcmTagKey& tag);
 
+/// As text(), turned into UTF-8 by the character set that the object names; as it is where that cannot be done. For
+/// comparing what two objects say, which may be written in different character sets.
+std::string unifiedText(DcmItem& item, const DcmTagKey& tag);
+
 /// UTF-8 without control characters (bytes that are no UTF-8 are taken as Latin-1), at most 64 bytes.
 std::string cleaned(const std::string& raw);
 
