@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "pipeline/file_names.h"
 #include "pipeline/scene.h"
 #include "pipeline/sources.h"
 #include "support/support.h"
@@ -77,6 +78,18 @@ TEST(Together, aSceneKeepsRolesAndOverride) {
   EXPECT_TRUE(again.geometry.overrideChecks);
   EXPECT_THROW(scene(R"(,"roles":{"1.2.3":"stiff"})"), BadInput);
   EXPECT_THROW(scene(R"(,"roles":["1.2.3"])"), BadInput);
+}
+
+TEST(FileNames, areNumbersInOrderOfNamesWhereverTheyAreQuoted) {
+  dicom::ScanResult scan;
+  scan.series.emplace_back();
+  scan.series.front().files = {"in/doe-3.dcm", "in/doe-1.dcm"};
+  scan.skipped = {{"in/doe-2.txt", "is a copy of 'doe-1.dcm'"}};
+  const FileNames names(scan);
+  EXPECT_EQ(names.placeOf("in/doe-2.txt"), "file 2 of 3");
+  EXPECT_EQ(names.placeOf("doe.txt"), "a file");
+  EXPECT_EQ(names.hiddenIn("'doe-3.dcm', 'doe-1.dcm' and 'doe-3.dcm': 'kPa'"),
+            "file 3 of 3, file 1 of 3 and file 3 of 3: 'kPa'");
 }
 
 }  // namespace
