@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   addCohort(app, context);
   addExport(app, context);
   addDeidentify(app, context);
+  addPacs(app, context);
   addRender(app, context);
   addReplay(app, context);
   addValidate(app, context);

@@ -51,6 +51,7 @@ void addMeasure(CLI::App& app, Context& context);
 void addInvert(CLI::App& app, Context& context);
 void addAgree(CLI::App& app, Context& context);
 void addPropose(CLI::App& app, Context& context);
+void addPacs(CLI::App& app, Context& context);
 void addPlan(CLI::App& app, Context& context);
 void addRender(CLI::App& app, Context& context);
 void addReplay(CLI::App& app, Context& context);

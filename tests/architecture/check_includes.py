@@ -14,6 +14,7 @@ MAY = {
     "base": [],
     "image": ["base"],
     "dicom": ["base", "image"],
+    "pacs": ["base", "dicom"],
     "roi": ["base", "image"],
     "elastography": ["base", "image", "dicom", "roi"],
     "inversion": ["base", "image", "elastography"],
