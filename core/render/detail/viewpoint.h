@@ -27,8 +27,8 @@ struct LabelledEdge {
   Eigen::Vector3d outward;  ///< unit, away from the box on the screen, LPS
 };
 
-/// One edge for every axis that is not seen end-on: of those on a wall, the lowest on the screen for an axis that runs
-/// across it, the leftmost for one that runs up it.
+/// One edge for every axis that is not seen end-on and runs along a wall: the lowest on the screen for an axis that
+/// runs across it, the leftmost for one that runs up it.
 std::vector<LabelledEdge> labelledEdges(const Viewpoint& view, const Eigen::AlignedBox3d& box);
 
 }  // namespace glisson::render
