@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
   addPlan(app, context);
   addRun(app, context);
   addCohort(app, context);
+  addLive(app, context);
   addExport(app, context);
   addDeidentify(app, context);
   addPacs(app, context);

@@ -57,6 +57,7 @@ void addRender(CLI::App& app, Context& context);
 void addReplay(CLI::App& app, Context& context);
 void addRun(CLI::App& app, Context& context);
 void addCohort(CLI::App& app, Context& context);
+void addLive(CLI::App& app, Context& context);
 void addExport(CLI::App& app, Context& context);
 void addDeidentify(CLI::App& app, Context& context);
 void addValidate(CLI::App& app, Context& context);

@@ -30,9 +30,10 @@ MAY = {
                  "render", "report", "exchange"],
     "study": ["base", "image", "dicom", "roi", "elastography", "inversion", "anatomy", "mechanics", "retraction", "comparison",
               "render", "report", "exchange", "pipeline", "phantom"],
+    "live": ["base", "retraction"],
     "cohort": ["base", "image", "dicom", "pipeline", "render", "report"],
 }
-THIRD_PARTY = re.compile(r"^(vtk|itk|dcmtk/|CGAL/|Q[A-Z]|nlohmann/|tbb/|CLI/|cholmod|openssl/|libigtl)")
+THIRD_PARTY = re.compile(r"^(vtk|itk|dcmtk/|CGAL/|Q[A-Z]|nlohmann/|tbb/|CLI/|cholmod|openssl/|igtl)")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 

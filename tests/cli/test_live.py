@@ -1,0 +1,80 @@
+"""The retraction over OpenIGTLink, read byte by byte with nothing but the standard library."""
+import itertools
+import pathlib
+import re
+import socket
+import struct
+import subprocess
+import tempfile
+import unittest
+
+from support import CLI, cli, write_nifti, write_scene
+
+
+def read_exactly(connection, count):
+    data = b""
+    while len(data) < count:
+        part = connection.recv(count - len(data))
+        if not part:
+            raise EOFError
+        data += part
+    return data
+
+
+def message(connection):
+    """Type, device name and body of the next message (header version 1)."""
+    version, kind, name, _, size, _ = struct.unpack(">H12s20sQQQ", read_exactly(connection, 58))
+    assert version == 1
+    return kind.rstrip(b"\0").decode(), name.rstrip(b"\0").decode(), read_exactly(connection, size)
+
+
+class Live(unittest.TestCase):
+    def test_streams_landmarks_of_both_stiffnesses(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = pathlib.Path(temporary)
+            cells = list(itertools.product(range(8), range(8), range(8)))
+            write_nifti(folder / "mask.nii.gz", [1] * len(cells), (8, 8, 8), (8.0, 8.0, 8.0), kind="B")
+            scene = write_scene(folder, {
+                "geometry": {"kind": "mask", "file": "mask.nii.gz"}, "material": {"youngs_kPa": 12},
+                "supports": [{"region": {"surface": "all"}, "kind": "spring", "stiffness_kPa_per_mm": 0.1}],
+                "loads": [{"kind": "retractor", "length_mm": 40, "force": 2}], "compare": {"against": "atlas"},
+                "outputs": [{"probe": [[-20, -20, 20], [-30, -30, 30]]}]})
+            process = subprocess.Popen([CLI, "live", str(scene), "--port", "0", "--frames", "3", "--rate", "100"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            port = None
+            for line in process.stderr:
+                found = re.search(r"port (\d+)", line)
+                if found:
+                    port = int(found.group(1))
+                    break
+            self.assertIsNotNone(port)
+            with socket.create_connection(("127.0.0.1", port), timeout=20) as connection:
+                seen = [message(connection) for _ in range(3 * 4)][:4]
+            out = process.stdout.read()
+            process.wait(timeout=60)
+            process.stdout.close()
+            process.stderr.close()
+            self.assertEqual(process.returncode, 0)
+            self.assertIn("frames", out)
+        self.assertEqual([(k, n) for k, n, _ in seen],
+                         [("POINT", "LandmarksMRE"), ("POINT", "LandmarksAtlas"), ("TRANSFORM", "RetractorReached"),
+                          ("STRING", "RetractorForce")])
+        self.assertEqual(len(seen[0][2]), 2 * 136)
+        # Points are RAS: the probe at LPS (-20, -20, 20) lies near (20, 20, 20), and the softer atlas has moved further.
+        mre, atlas = (struct.unpack_from(">3f", body, 100) for _, _, body in seen[:2])
+        self.assertLess(max(abs(a - 20) for a in mre), 10)
+        moved = [sum((a - 20) ** 2 for a in p) for p in (mre, atlas)]
+        self.assertGreater(moved[1], moved[0])
+
+    def test_says_what_is_missing(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            scene = write_scene(temporary, {"geometry": {"kind": "box", "size_mm": [20, 20, 20]},
+                                            "material": {"youngs_kPa": 12},
+                                            "supports": [{"region": {"face": "x-"}, "kind": "fixed"}],
+                                            "outputs": [{"probe": [[10, 10, 10]]}],
+                                            "loads": [{"kind": "body_force", "N_per_m3": [0, 0, -1]}]})
+            self.assertIn("retractor", cli("live", scene, "--port", 0, "--frames", 1, code=3).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
