@@ -174,7 +174,7 @@ bool sameStiffness(const retraction::Model& a, const retraction::Model& b) {
 }
 
 image::Mask dropLooseIslands(const Scene& scene, const image::Mask& cells, std::vector<std::string>& warnings) {
-  if (scene.geometry.kind == GeometrySpec::Kind::Box || scene.setup.analysis.dynamic) return cells;
+  if (scene.geometry.kind == GeometrySpec::Kind::Box) return cells;
   const image::Mask largest = image::largestComponent(cells);
   std::size_t all = 0, kept = 0;
   for (const std::uint8_t v : cells.values) all += v;

@@ -112,8 +112,12 @@ void Writer::text(const std::string& name, const std::string& content) {
 }
 
 void Writer::displacementFields(const RunResult& r) {
-  image::writeVolume(note(r.atlas ? "displacement-mre.nrrd" : "displacement.nrrd"), r.primary.u_mm);
-  if (r.atlas) image::writeVolume(note("displacement-atlas.nrrd"), r.atlas->u_mm);
+  // What is no answer says so in its name, wherever the file is taken.
+  const auto name = [](const retraction::Result& one, const std::string& stem) {
+    return stem + (one.solver.converged() ? ".nrrd" : "-not-converged.nrrd");
+  };
+  image::writeVolume(note(name(r.primary, r.atlas ? "displacement-mre" : "displacement")), r.primary.u_mm);
+  if (r.atlas) image::writeVolume(note(name(*r.atlas, "displacement-atlas")), r.atlas->u_mm);
 }
 
 void Writer::vessels(const Scene&, const RunResult& r, const anatomy::VesselModel& vessels) {

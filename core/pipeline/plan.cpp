@@ -134,7 +134,12 @@ std::vector<PlanStep> plan(const Scene& s) {
       "about " + std::to_string(static_cast<long long>(cells)) + " cells, " +
           std::to_string(static_cast<long long>(dofs)) + " degrees of freedom",
       0.1, 40e-6 * cells);
-  add("assembled-stiffness-matrix", false, "one modulus per voxel is enough: K is applied, not stored");
+  const bool assembled = tets || n.newton || s.setup.solver.kind == mechanics::SolverKind::Factorised;
+  add("assembled-stiffness-matrix", assembled,
+      tets        ? "tetrahedra have no common shape: their matrix is put together and factorised"
+      : n.newton  ? "the tangent changes with every iteration: it is put together anew"
+      : assembled ? "the scene asks for a factorisation"
+                  : "one modulus per voxel is enough: K is applied, not stored");
   add("mesh-free-frames", n.meshfree,
       n.meshfree ? frames.why
       : tets     ? "the model is tetrahedra"
@@ -177,7 +182,8 @@ std::vector<PlanStep> plan(const Scene& s) {
   add("write-displacement-field", s.outputs.displacementField,
       s.outputs.displacementField ? "asked for" : "not asked for", 0.1);
   add("picture-data", n.pictures,
-      n.pictures ? "what the pictures show is kept, so that \"render\" can draw it again" : "no picture is asked for", 0.1);
+      n.pictures ? "what the pictures show is kept, so that \"render\" can draw it again" : "no picture is asked for",
+      0.1);
   add("slice-overlay", n.pictures, n.pictures ? "asked for" : "no picture is asked for", 1.0, 50);
   add("3d-overlay", n.pictures, n.pictures ? "asked for" : "no picture is asked for: no OpenGL is started", 4.0, 200);
   add("report", n.report, n.report ? "asked for" : "not asked for", 0.2);

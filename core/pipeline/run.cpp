@@ -107,6 +107,28 @@ std::string framesInWords(const mechanics::MeshfreeOptions& asked, const retract
   return text;
 }
 
+/// Memory that is free on this machine, MB; nothing where it cannot be told.
+std::optional<double> freeMemory_MB() {
+  std::ifstream in("/proc/meminfo");
+  for (std::string line; std::getline(in, line);)
+    if (line.rfind("MemAvailable:", 0) == 0) return std::stod(line.substr(13)) / 1024.0;
+  return {};
+}
+
+/// Refuses a scene whose largest step would not fit into the memory, before it is begun.
+void requireMemory(const std::vector<PlanStep>& plan) {
+  const std::optional<double> free_MB = freeMemory_MB();
+  if (!free_MB) return;
+  for (const PlanStep& s : plan)
+    if (s.needed && s.peak_MB > 0.9 * *free_MB) {
+      std::ostringstream text;
+      text.precision(3);
+      text << "this scene needs about " << s.peak_MB / 1024.0 << " GB for \"" << s.step << "\", and "
+           << *free_MB / 1024.0 << " GB are free: use larger cells (cell_mm; twice the edge takes an eighth)";
+      throw BadInput(text.str());
+    }
+}
+
 }  // namespace
 
 RunResult run(const Scene& scene, const RunOptions& options, const Progress& progress, const Inputs* given) {
@@ -115,6 +137,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   const detail::Needs needs(scene);
   RunResult r;
   r.plan = plan(scene);
+  requireMemory(r.plan);
   Steps steps(r.plan, progress);
 
   Inputs loaded;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include <sstream>
+
 #include "base/error.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/measures.h"
@@ -157,8 +159,13 @@ Answer solve(const Model& patient, const Body& body, const MechanicsScene& scene
     mechanics::DynamicSolution d = mechanics::solveDynamic(problem, dynamicOptions(setup.analysis), options, progress);
     a.steps = d.trajectory.steps;
     a.solution = std::move(d.solution);
-    if (options.kind == mechanics::SolverKind::Factorised || options.kind == mechanics::SolverKind::Multigrid)
-      a.notes.push_back("time steps on voxels are solved by conjugate gradients, whatever solver the scene names");
+    const double reached_s = 1e-3 * setup.analysis.h_ms * a.steps;
+    if (setup.analysis.stopWhenSteady > 0.0 && reached_s >= setup.analysis.end_s * (1.0 - 1e-9)) {
+      std::ostringstream text;
+      text << "the motion had not come to rest after " << reached_s
+           << " s; raise \"end_s\", or the damping, where the state at rest is wanted";
+      a.notes.push_back(text.str());
+    }
   } else {
     a.solution = mechanics::solveStatic(problem, options, progress);
   }

@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 Outcome hangingBar(const Progress& progress) {
   mechanics::Problem p;
   p.body = solidBox({4, 4, 20}, {0.01, 0.01, 0.05}, 12e3, 0.0);
+  p.body.density_kg_m3 = 1000.0;
   const mechanics::VoxelMesh mesh(p.body);
   p.supports.fixations = clampSide(mesh, 5);
   p.f_N = mechanics::bodyForce(mesh, {0, 0, -p.body.density_kg_m3 * 9.81});
@@ -142,7 +143,7 @@ Outcome tooManyFrames(const Progress& progress) {
 
 Scenes bendingScenes(const StabilityOptions&) {
   Scenes s;
-  s.push_back({"hanging bar, Poisson 0", "u = rho g L2 / 2E = 1.0219 mm", hangingBar});
+  s.push_back({"hanging bar, Poisson 0", "u = rho g L2 / 2E = 1.0219 mm (rho 1000 kg/m3)", hangingBar});
   s.push_back({"liver held at one end, own weight", "strain beyond 0.1: marked as outside linear theory", ownWeight});
   for (const double nu : {0.0, 0.3, 0.45, 0.49, 0.499, 0.4999})
     s.push_back({words("beam, Poisson ", nu), "free of locking: within 5 % at 1.67 mm cells, converged",

@@ -85,11 +85,11 @@ TEST(Variations, ChangeOneAssumptionEach) {
   const test::TemporaryFolder folder;
   write(folder / "roi.json", "{}");
   const auto list = detail::variations(sceneOf(folder.path(), {}));
-  ASSERT_EQ(list.size(), 9u);
+  ASSERT_EQ(list.size(), 10u);
   EXPECT_EQ(list[0].name, "as simulated");
   for (std::size_t i = 1; i < list.size(); ++i) EXPECT_NE(list[i].scene, list[0].scene) << list[i].name;
   EXPECT_THAT(list[1].scene, HasSubstr("0.05"));
-  EXPECT_THAT(list[8].scene, HasSubstr("corotational"));
+  EXPECT_THAT(list[9].scene, HasSubstr("corotational"));
 }
 
 }  // namespace

@@ -146,14 +146,20 @@ TEST(Discretisation, FramesAreHeldAgainstTheirOwnVoxelsToo) {
   EXPECT_GT(a.max_mm, 2.0 * b.max_mm);
 }
 
-TEST(Discretisation, BodyThatCannotBeHalvedIsSaidSo) {
+TEST(Discretisation, BodyThatCannotBeMergedIsSplit) {
   pipeline::Scene s = bar("12");
   s.setup.supports[0].region = retraction::BoxRegion{{-1, -1, -1}, {1, 13, 13}};
   const pipeline::RunResult r = pipeline::run(s, {});
-  // One cell thick: no coarse cell would be half full.
+  // One cell thick: no coarse cell would be half full, so cells of half the edge are taken.
   const retraction::DiscretisationError e = discretisationError(r.model, s.setup, r.primary);
-  EXPECT_FALSE(e.known);
-  EXPECT_NE(e.note.find("unknown"), std::string::npos);
+  EXPECT_TRUE(e.known) << e.note;
+  EXPECT_EQ(e.coarse_mm, 0.5 * e.cell_mm);
+  EXPECT_GT(e.max_mm, 0.0);
+  // Frames on such a body can only be told from the voxels under them.
+  s.setup.model.kind = retraction::ModelKind::Meshfree;
+  const retraction::DiscretisationError f = discretisationError(r.model, s.setup, r.primary);
+  EXPECT_FALSE(f.known);
+  EXPECT_NE(f.note.find("unknown"), std::string::npos);
 }
 
 }  // namespace
