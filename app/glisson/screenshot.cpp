@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "panels/compare_page.h"
+#include "panels/live_bar.h"
 #include "panels/main_window.h"
 #include "panels/segment_page.h"
 #include "views/slice_view.h"
@@ -45,6 +46,16 @@ void Screenshot::afterLoad() {
   }
   if (!wish_.run) {
     settle();
+    return;
+  }
+  if (wish_.step == session::Step::Retract) {
+    auto* live = window_.findChild<panels::LiveBar*>();
+    connect(live, &panels::LiveBar::ready, this, [this, live] {
+      window_.showStep(wish_.step);
+      live->setLive(true);
+      settle();
+    });
+    window_.run();
     return;
   }
   connect(window_.findChild<panels::ComparePage*>(), &panels::ComparePage::overlayShown, this, &Screenshot::settle,

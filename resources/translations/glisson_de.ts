@@ -5,102 +5,175 @@
   <name>glisson::panels::ComparePage</name>
   <message>
    <source>Run the retraction to compare MRE with the atlas.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>The vessels in 3-D appear here.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>MRE against atlas</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Difference at the retractor</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Over the whole liver</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Hepatic vessels</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>How far to trust it</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Display</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Red / blue</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Orange / blue (colour-blind)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Colours</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Oblique</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>From the front</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>From below</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Camera</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>slice %1 / %2</source>
-   <translation>Schicht %1 / %2</translation>
+   <translation>Retraktion rechnen, um MRE und Atlas zu vergleichen.</translation>
   </message>
   <message>
    <source>Not run yet.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>mean %1, 95th percentile %2, largest %3
+   <translation>Noch nicht gerechnet.</translation>
+    </message>
+    <message>
+        <source>The box plot of the differences appears here.</source>
+        <translation>Hier erscheint der Boxplot der Unterschiede.</translation>
+    </message>
+    <message>
+        <source>MRE against atlas</source>
+        <translation>MRE gegen Atlas</translation>
+    </message>
+    <message>
+        <source>Difference at the retractor</source>
+        <translation>Unterschied am Retraktor</translation>
+    </message>
+    <message>
+        <source>Over the whole liver</source>
+        <translation>In der ganzen Leber</translation>
+    </message>
+    <message>
+        <source>Hepatic vessels</source>
+        <translation>Lebergefäße</translation>
+    </message>
+    <message>
+        <source>How far to trust it</source>
+        <translation>Wie weit es gilt</translation>
+    </message>
+    <message>
+        <source>Display</source>
+        <translation>Anzeige</translation>
+    </message>
+    <message>
+        <source>Red / blue</source>
+        <translation>Rot / Blau</translation>
+    </message>
+    <message>
+        <source>Orange / blue (colour-blind)</source>
+        <translation>Orange / Blau (farbenblind)</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>Farben</translation>
+    </message>
+    <message>
+        <source>Oblique</source>
+        <translation>Schräg</translation>
+    </message>
+    <message>
+        <source>From the front</source>
+        <translation>Von vorn</translation>
+    </message>
+    <message>
+        <source>From below</source>
+        <translation>Von unten</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Blick</translation>
+    </message>
+    <message>
+        <source>Overlay</source>
+        <translation>Überlagerung</translation>
+    </message>
+    <message>
+        <source>Difference in mm</source>
+        <translation>Unterschied in mm</translation>
+    </message>
+    <message>
+        <source>Slice</source>
+        <translation>Schicht</translation>
+    </message>
+    <message>
+        <source>3-D</source>
+        <translation>3-D</translation>
+    </message>
+    <message>
+        <source>Box plot</source>
+        <translation>Boxplot</translation>
+    </message>
+    <message>
+        <source>Beside it</source>
+        <translation>Daneben</translation>
+    </message>
+    <message>
+        <source>slice %1 / %2</source>
+        <translation>Schicht %1 / %2</translation>
+    </message>
+    <message>
+        <source>Export pictures and report…</source>
+        <translation>Bilder und Bericht exportieren …</translation>
+    </message>
+    <message>
+        <source>Slices, difference map, 3-D and box plot in these colours, report and record of the run</source>
+        <translation>Schichten, Differenzkarte, 3-D und Boxplot in diesen Farben, Bericht und Protokoll des Laufs</translation>
+    </message>
+    <message>
+        <source>mean %1, 95th percentile %2, largest %3
 %4</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>At or above the 5 mm that matter clinically.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Below the 5 mm that matter clinically.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>No vessel landmarks were found.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 % at 5 mm or more</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Something has changed since this run: run again.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>No warning: strains and rotations are within linear theory.</source>
-   <translation type="unfinished" />
-  </message>
- </context>
+        <translation>Mittel %1, 95. Perzentil %2, größter %3
+%4</translation>
+    </message>
+    <message>
+        <source>At or above the 5 mm that matter clinically.</source>
+        <translation>Mindestens die klinisch bedeutsamen 5 mm.</translation>
+    </message>
+    <message>
+        <source>Below the 5 mm that matter clinically.</source>
+        <translation>Unter den klinisch bedeutsamen 5 mm.</translation>
+    </message>
+    <message>
+        <source>No vessel landmarks were found.</source>
+        <translation>Keine Gefäßpunkte gefunden.</translation>
+    </message>
+    <message>
+        <source>%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 % at 5 mm or more</source>
+        <translation>%1 Gefäßpunkte: Mittel %2, 95. Perzentil %3, größter %4; %5 % mit 5 mm oder mehr</translation>
+    </message>
+    <message>
+        <source>Places on vessels where MRE and atlas lie 5 mm or more apart</source>
+        <translation>Gefäßstellen, an denen MRE und Atlas 5 mm oder mehr auseinanderliegen</translation>
+    </message>
+    <message>
+        <source>Apart</source>
+        <translation>Abstand</translation>
+    </message>
+    <message>
+        <source>L, P, S (mm)</source>
+        <translation>L, P, S (mm)</translation>
+    </message>
+    <message>
+        <source>Choose a place: the slice shows it, magnified</source>
+        <translation>Stelle wählen: die Schicht zeigt sie vergrößert</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>Something has changed since this run: run again.</source>
+        <translation>Seit diesem Lauf hat sich etwas geändert: neu rechnen.</translation>
+    </message>
+    <message>
+        <source>No warning: strains and rotations are within linear theory.</source>
+        <translation>Keine Warnung: Dehnungen und Drehungen liegen im Bereich der linearen Theorie.</translation>
+    </message>
+    <message>
+        <source>The cells of %1 mm may shift a place by %2 mm on average, and by no more than %3 mm in 95 % of the liver (estimated from cells twice as large).</source>
+        <translation>Die Zellen von %1 mm können eine Stelle im Mittel um %2 mm verschieben, in 95 % der Leber um höchstens %3 mm (geschätzt aus doppelt so großen Zellen).</translation>
+    </message>
+    <message>
+        <source>That is less than half of the mean difference shown.</source>
+        <translation>Das ist weniger als die Hälfte des gezeigten mittleren Unterschieds.</translation>
+    </message>
+    <message>
+        <source>That is more than half of the mean difference shown: use smaller cells before concluding.</source>
+        <translation>Das ist mehr als die Hälfte des gezeigten mittleren Unterschieds: vor Schlüssen kleinere Zellen nehmen.</translation>
+    </message>
+    <message>
+        <source>How much the size of the cells matters is not known: %1</source>
+        <translation>Wie viel die Größe der Zellen ausmacht, ist nicht bekannt: %1</translation>
+    </message>
+    <message>
+        <source>Folder for pictures and report</source>
+        <translation>Ordner für Bilder und Bericht</translation>
+    </message>
+</context>
  <context>
   <name>glisson::panels::ImageLayers</name>
   <message>
@@ -528,163 +601,144 @@
    <source>&lt;h2&gt;Glisson %1&lt;/h2&gt;&lt;p&gt;&lt;b&gt;%2&lt;/b&gt;&lt;/p&gt;&lt;p&gt;Patient-specific biomechanics of the liver from MRI and MR elastography.&lt;/p&gt;&lt;p&gt;Numbers and reference ranges only, never a diagnosis.&lt;/p&gt;&lt;p&gt;Free software under the GNU General Public License, version 3 or later.&lt;/p&gt;</source>
    <translation type="unfinished" />
   </message>
- </context>
+     <message>
+        <source>Exported %1 files.</source>
+        <translation>%1 Dateien exportiert.</translation>
+    </message>
+    <message>
+        <source>Not exported: %1</source>
+        <translation>Nicht exportiert: %1</translation>
+    </message>
+</context>
  <context>
   <name>glisson::panels::ModelPage</name>
   <message>
    <source>Plan</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>What this case needs, what it leaves out, and why. Times are predicted before a run and measured after it.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Step</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Needed</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Time</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Why</source>
-   <translation>Warum</translation>
+   <translation>Plan</translation>
   </message>
   <message>
    <source>automatic (%1 mm)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Model</source>
-   <translation>Modell</translation>
+   <translation>automatisch (%1 mm)</translation>
   </message>
   <message>
    <source>Material</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>MR elastogram</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Atlas</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Stiffness</source>
-   <translation>Steifigkeit</translation>
+   <translation>Material</translation>
   </message>
   <message>
    <source>kPa (µ)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Shear modulus of the atlas model; healthy donors: 2.1 kPa</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Poisson's ratio ν; 0.5 would be incompressible</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Poisson's ratio ν</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Mass density of the liver</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Density</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Discretisation</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Voxel FEM (hexahedra)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Mesh-free (Voronoi sites)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Method</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Edge of a voxel cell: smaller is more exact and slower. 0 = twice the pixel of the MRI</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>automatic</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Cell</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Number of mesh-free sites</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Sites</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Liver</source>
-   <translation>Leber</translation>
+   <translation>kPa (µ)</translation>
   </message>
   <message>
    <source>Run</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Build, retract and compare (Ctrl+R)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>no plan</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>%1%2 s</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>yes</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>left out</source>
-   <translation>ausgenommen</translation>
+   <translation>Rechnen</translation>
   </message>
   <message>
    <source>%1 cells, %2 mL, %3 kg</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>
+   <translation>%1 Zellen, %2 mL, %3 kg</translation>
+    </message>
+    <message>
+        <source>Step</source>
+        <translation>Schritt</translation>
+    </message>
+    <message>
+        <source>Needed</source>
+        <translation>Nötig</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Zeit</translation>
+    </message>
+    <message>
+        <source>MR elastogram</source>
+        <translation>MR-Elastogramm</translation>
+    </message>
+    <message>
+        <source>Atlas</source>
+        <translation>Atlas</translation>
+    </message>
+    <message>
+        <source>Shear modulus of the atlas model; healthy donors: 2.1 kPa</source>
+        <translation>Schubmodul des Atlasmodells; gesunde Spender: 2,1 kPa</translation>
+    </message>
+    <message>
+        <source>Poisson&apos;s ratio ν; 0.5 would be incompressible</source>
+        <translation>Querkontraktionszahl ν; 0,5 wäre inkompressibel</translation>
+    </message>
+    <message>
+        <source>Poisson&apos;s ratio ν</source>
+        <translation>Querkontraktion ν</translation>
+    </message>
+    <message>
+        <source>Mass density of the liver</source>
+        <translation>Dichte der Leber</translation>
+    </message>
+    <message>
+        <source>Density</source>
+        <translation>Dichte</translation>
+    </message>
+    <message>
+        <source>Discretisation</source>
+        <translation>Diskretisierung</translation>
+    </message>
+    <message>
+        <source>Voxel FEM (hexahedra)</source>
+        <translation>Voxel-FEM (Hexaeder)</translation>
+    </message>
+    <message>
+        <source>Mesh-free (Voronoi sites)</source>
+        <translation>Netzfrei (Voronoi-Punkte)</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>Verfahren</translation>
+    </message>
+    <message>
+        <source>Edge of a voxel cell: smaller is more exact and slower. 0 = twice the pixel of the MRI</source>
+        <translation>Kante einer Voxelzelle: kleiner ist genauer und langsamer. 0 = doppelter Pixel des MRT</translation>
+    </message>
+    <message>
+        <source>automatic</source>
+        <translation>automatisch</translation>
+    </message>
+    <message>
+        <source>Cell</source>
+        <translation>Zelle</translation>
+    </message>
+    <message>
+        <source>Number of mesh-free sites</source>
+        <translation>Anzahl netzfreier Punkte</translation>
+    </message>
+    <message>
+        <source>Sites</source>
+        <translation>Punkte</translation>
+    </message>
+    <message>
+        <source>Build, retract and compare (Ctrl+R)</source>
+        <translation>Aufbauen, retrahieren und vergleichen (Strg+R)</translation>
+    </message>
+    <message>
+        <source>no plan</source>
+        <translation>kein Plan</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>ja</translation>
+    </message>
+    <message>
+        <source>
 (of the last run; something has changed since)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Outline the liver first (step Segment).</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Known after the first run.</source>
-   <translation type="unfinished" />
-  </message>
- </context>
+        <translation>
+(vom letzten Lauf; seither hat sich etwas geändert)</translation>
+    </message>
+    <message>
+        <source>Outline the liver first (step Segment).</source>
+        <translation>Zuerst die Leber umranden (Schritt Segment).</translation>
+    </message>
+    <message>
+        <source>Known after the first run.</source>
+        <translation>Nach dem ersten Lauf bekannt.</translation>
+    </message>
+</context>
  <context>
   <name>glisson::panels::OutlinePanel</name>
   <message>
@@ -852,108 +906,111 @@
   </message>
   <message>
    <source>Play the retraction</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>%1 %</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Retraction</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Nathanson retractor</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Diameter of the bar</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Diameter</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Length of the bar that bears</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Length</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Tissue wraps round the bar: how far its pressure reaches beyond it; 0 is a bare bar</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Wrap</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>The liver's weight</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Given force</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Hoist</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Hoisting force, towards anterior in the transverse plane</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Force</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Under the inferior right lobe, hoisted towards anterior. The same load for MRE and atlas.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Abdomen</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Elastic resistance per area of the posterior and superior surface (Winkler foundation)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Resistance</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Solution</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Run</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Build, retract and compare (Ctrl+R)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Not run yet.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>%1: %2 iterations, residual %3
+   <translation>Retraktion abspielen</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>Retraction</source>
+        <translation>Retraktion</translation>
+    </message>
+    <message>
+        <source>Nathanson retractor</source>
+        <translation>Nathanson-Retraktor</translation>
+    </message>
+    <message>
+        <source>Diameter of the bar</source>
+        <translation>Durchmesser des Bügels</translation>
+    </message>
+    <message>
+        <source>Diameter</source>
+        <translation>Durchmesser</translation>
+    </message>
+    <message>
+        <source>Length of the bar that bears</source>
+        <translation>Tragende Länge des Bügels</translation>
+    </message>
+    <message>
+        <source>Length</source>
+        <translation>Länge</translation>
+    </message>
+    <message>
+        <source>Tissue wraps round the bar: how far its pressure reaches beyond it; 0 is a bare bar</source>
+        <translation>Gewebe legt sich um den Bügel: wie weit sein Druck über ihn hinausreicht; 0 ist ein blanker Bügel</translation>
+    </message>
+    <message>
+        <source>Wrap</source>
+        <translation>Umschlingung</translation>
+    </message>
+    <message>
+        <source>The liver&apos;s weight</source>
+        <translation>Gewicht der Leber</translation>
+    </message>
+    <message>
+        <source>Given force</source>
+        <translation>Gegebene Kraft</translation>
+    </message>
+    <message>
+        <source>Hoist</source>
+        <translation>Zug</translation>
+    </message>
+    <message>
+        <source>Hoisting force, towards anterior in the transverse plane</source>
+        <translation>Zugkraft nach vorn in der Transversalebene</translation>
+    </message>
+    <message>
+        <source>Force</source>
+        <translation>Kraft</translation>
+    </message>
+    <message>
+        <source>Under the inferior right lobe, hoisted towards anterior. The same load for MRE and atlas.</source>
+        <translation>Unter dem unteren rechten Lappen, nach vorn gezogen. Dieselbe Last für MRE und Atlas.</translation>
+    </message>
+    <message>
+        <source>Abdomen</source>
+        <translation>Bauchraum</translation>
+    </message>
+    <message>
+        <source>Elastic resistance per area of the posterior and superior surface (Winkler foundation)</source>
+        <translation>Elastischer Widerstand je Fläche der hinteren und oberen Oberfläche (Winkler-Bettung)</translation>
+    </message>
+    <message>
+        <source>Resistance</source>
+        <translation>Widerstand</translation>
+    </message>
+    <message>
+        <source>Solution</source>
+        <translation>Lösung</translation>
+    </message>
+    <message>
+        <source>Run</source>
+        <translation>Rechnen</translation>
+    </message>
+    <message>
+        <source>Build, retract and compare (Ctrl+R)</source>
+        <translation>Aufbauen, retrahieren und vergleichen (Strg+R)</translation>
+    </message>
+    <message>
+        <source>Not run yet.</source>
+        <translation>Noch nicht gerechnet.</translation>
+    </message>
+    <message>
+        <source>%1: %2 iterations, residual %3
 %4 degrees of freedom
 Load %5 N, reaction %6 N
 Largest strain %7 %, rotation %8°</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Linear theory can be trusted here.</source>
-   <translation type="unfinished" />
-  </message>
- </context>
+        <translation>%1: %2 Iterationen, Residuum %3
+%4 Freiheitsgrade
+Last %5 N, Reaktion %6 N
+Größte Dehnung %7 %, Drehung %8°</translation>
+    </message>
+    <message>
+        <source>Linear theory can be trusted here.</source>
+        <translation>Der linearen Theorie ist hier zu trauen.</translation>
+    </message>
+</context>
  <context>
   <name>glisson::panels::SegmentPage</name>
   <message>
@@ -1623,4 +1680,79 @@ Volume %6 mL against %7 mL, difference %8 mL (%9 %)</source>
    <translation>Strg+Klick</translation>
   </message>
  </context>
+<context>
+    <name>glisson::panels::LiveBar</name>
+    <message>
+        <source>Move live</source>
+        <translation>Live bewegen</translation>
+    </message>
+    <message>
+        <source>Drag the retractor in the picture, or use the sliders: both livers follow</source>
+        <translation>Den Retraktor im Bild ziehen oder die Regler nehmen: beide Lebern folgen</translation>
+    </message>
+    <message>
+        <source>right – left</source>
+        <translation>rechts – links</translation>
+    </message>
+    <message>
+        <source>front – back</source>
+        <translation>vorn – hinten</translation>
+    </message>
+    <message>
+        <source>down – up</source>
+        <translation>unten – oben</translation>
+    </message>
+    <message>
+        <source>Tool, %1, mm</source>
+        <translation>Werkzeug, %1, mm</translation>
+    </message>
+    <message>
+        <source>As run</source>
+        <translation>Wie gerechnet</translation>
+    </message>
+    <message>
+        <source>Back to the force of the run</source>
+        <translation>Zurück zur Kraft des Laufs</translation>
+    </message>
+    <message>
+        <source>Run the retraction; then the retractor can be moved by hand.</source>
+        <translation>Retraktion rechnen; dann lässt sich der Retraktor von Hand bewegen.</translation>
+    </message>
+    <message>
+        <source>Preparing to move live: %1 %</source>
+        <translation>Live-Bewegung wird vorbereitet: %1 %</translation>
+    </message>
+    <message>
+        <source>The retractor cannot be moved live. %1</source>
+        <translation>Der Retraktor lässt sich nicht live bewegen. %1</translation>
+    </message>
+    <message>
+        <source>Ready: &quot;Move live&quot; puts the retractor into your hand.</source>
+        <translation>Bereit: „Live bewegen“ gibt den Retraktor in die Hand.</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>Tool %1 mm from rest with %2 N (the run: %3 N). Difference under the bar, weighted by its pressure, %4 mm</source>
+        <translation>Werkzeug %1 mm aus der Ruhe mit %2 N (der Lauf: %3 N). Unterschied unter dem Bügel, nach seinem Druck gewichtet, %4 mm</translation>
+    </message>
+    <message>
+        <source>; vessels: mean %1, largest %2 mm, %3 of %4 landmarks at 5 mm or more</source>
+        <translation>; Gefäße: Mittel %1, größter %2 mm, %3 von %4 Punkten mit 5 mm oder mehr</translation>
+    </message>
+    <message>
+        <source>Linear theory, far beyond the force of the run: shapes are not to be trusted.</source>
+        <translation>Lineare Theorie, weit über der Kraft des Laufs: den Formen ist nicht zu trauen.</translation>
+    </message>
+    <message>
+        <source>Simulation %1 ms a frame (%2 frames/s possible).</source>
+        <translation>Simulation %1 ms je Bild (%2 Bilder/s möglich).</translation>
+    </message>
+    <message>
+        <source>Simulation %1 ms a frame (%2 frames/s possible); on screen %3 pictures/s.</source>
+        <translation>Simulation %1 ms je Bild (%2 Bilder/s möglich); am Schirm %3 Bilder/s.</translation>
+    </message>
+</context>
 </TS>

@@ -15,12 +15,14 @@
 #include <thread>
 
 #include "panels/compare_page.h"
+#include "panels/live_bar.h"
 #include "panels/main_window.h"
 #include "panels/step_rail.h"
 #include "panels/theme.h"
 #include "pipeline/run.h"
 #include "support/support.h"
 #include "views/picture_view.h"
+#include "views/scene_view.h"
 #include "views/slice_view.h"
 
 using glisson::panels::MainWindow;
@@ -261,6 +263,86 @@ class Journey : public QObject {
              qPrintable(QString("%1 mL instead of %2").arg(volume_mL).arg(prism_mL)));
     QVERIFY(std::any_of(session().result()->warnings.begin(), session().result()->warnings.end(),
                         [](const auto& w) { return w.find("outlines on 4 of 13 slices") != std::string::npos; }));
+  }
+
+  void theToolIsMovedLive() {
+    auto* live = window_->findChild<glisson::panels::LiveBar*>();
+    auto* view = find<glisson::views::SceneView>("retractView");
+    QTRY_VERIFY_WITH_TIMEOUT(live->isReady(), wait_ms);
+    QSignalSpy rendered(view, &glisson::views::SceneView::rendered);
+    window_->showStep(Step::Retract);
+    QVERIFY(rendered.wait(wait_ms));
+    click("liveButton");
+    QVERIFY(live->isLive() && view->isLive());
+    // Under the force of the run the live livers lie where the run put them.
+    const auto& run = *session().result()->difference;
+    QVERIFY(std::abs(live->frame().vesselMax_mm - run.vesselMax_mm) < 1e-3 * std::max(run.vesselMax_mm, 1.0));
+    QVERIFY(std::abs(live->frame().vesselMean_mm - run.vesselMean_mm) < 1e-3 * std::max(run.vesselMean_mm, 1.0));
+    QVERIFY(rendered.wait(wait_ms));
+    // The mouse takes the tool where it is seen; twelve pixels up, the contact follows.
+    auto* canvas = view->findChild<QWidget*>("vtkWidget");
+    const auto seen = view->toolPixel();
+    QVERIFY(seen.has_value());
+    const QPoint at = seen->toPoint();
+    const Eigen::Vector3d before = live->frame().toolMre_mm;
+    QTest::mousePress(canvas, Qt::LeftButton, {}, at);
+    double slowest_s = 0.0, sum_s = 0.0;
+    for (int n = 1; n <= 12; ++n) {
+      QTest::mouseMove(canvas, at - QPoint(0, n));
+      slowest_s = std::max(slowest_s, live->frameSeconds());
+      sum_s += live->frameSeconds();
+    }
+    QTest::mouseRelease(canvas, Qt::LeftButton, {}, at - QPoint(0, 12));
+    QVERIFY((live->frame().toolMre_mm - before).norm() > 1.0);
+    QVERIFY(QLineF(*view->toolPixel(), *seen - QPointF(0, 12)).length() < 2.0);
+    qInfo("frame of the simulation: %.2f ms, slowest %.2f ms, for %lld points", 1e3 * sum_s / 12.0, 1e3 * slowest_s,
+          static_cast<long long>(live->frame().mre_mm.cols()));
+    QVERIFY2(sum_s < 12.0 / 60.0, "the simulation does not keep 60 frames a second");
+    // Without a mouse: a slider's arrow key is one millimetre.
+    auto* slider = find<QSlider>("liveSliderP");
+    const Eigen::Vector3d held = live->frame().toolMre_mm;
+    QTest::keyClick(slider, Qt::Key_Right);
+    QVERIFY(std::abs(live->frame().toolMre_mm.y() - held.y() - 1.0) < 0.06);
+    QVERIFY(find<QLabel>("liveNumbers")->text().contains("mm"));
+    click("liveReset");
+    QVERIFY(std::abs(live->frame().vesselMax_mm - run.vesselMax_mm) < 1e-3 * std::max(run.vesselMax_mm, 1.0));
+    click("liveButton");
+    QVERIFY(!view->isLive());
+    window_->showStep(Step::Compare);
+  }
+
+  void vesselsBeyondFiveMillimetresAreListedAndFound() {
+    auto* compare = window_->findChild<glisson::panels::ComparePage*>();
+    auto* list = find<QTreeWidget>("vesselList");
+    const auto& apart = session().result()->difference->vessel_mm;
+    const auto beyond = std::count_if(apart.begin(), apart.end(), [](double d) { return d >= 5.0; });
+    QCOMPARE(static_cast<std::ptrdiff_t>(list->topLevelItemCount()), beyond);
+    QSignalSpy drawn(compare, &glisson::panels::ComparePage::overlayShown);
+    if (beyond > 0) {
+      list->setCurrentItem(list->topLevelItem(0));
+      QVERIFY(drawn.count() > 0 || drawn.wait(wait_ms));
+      QCOMPARE(drawn.back().front().toInt() + 1, list->topLevelItem(0)->text(1).toInt());
+      drawn.clear();
+    }
+    const QImage overlay = find<PictureView>("overlayView")->picture();
+    find<QComboBox>("sliceChoice")->setCurrentIndex(1);
+    QVERIFY(drawn.count() > 0 || drawn.wait(wait_ms));
+    QVERIFY(find<PictureView>("overlayView")->picture() != overlay);
+    find<QComboBox>("sliceChoice")->setCurrentIndex(0);
+    QTRY_VERIFY(find<PictureView>("boxPlotView")->hasPicture());
+    QVERIFY(find<QLabel>("validityText")->text().contains("cells of"));
+  }
+
+  void picturesAndReportAreExported() {
+    auto* compare = window_->findChild<glisson::panels::ComparePage*>();
+    QSignalSpy exported(compare, &glisson::panels::ComparePage::exported);
+    const auto folder = folder_ / "exported";
+    compare->exportTo(QString::fromStdString(folder.string()));
+    QVERIFY(exported.wait(wait_ms));
+    QVERIFY2(exported.front()[1].toString().isEmpty(), qPrintable(exported.front()[1].toString()));
+    for (const char* name : {"overlay-largest-difference.png", "difference-map.png", "overlay-3d-oblique.png",
+                             "difference-boxes.png", "difference-boxes.svg", "report.html", "run.json"})
+      QVERIFY2(std::filesystem::file_size(folder / name) > 1000, name);
   }
 
   void theCommandLineGivesTheSameNumbers() {

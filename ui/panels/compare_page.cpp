@@ -1,10 +1,13 @@
 #include "panels/compare_page.h"
 
 #include <QComboBox>
+#include <QScrollArea>
 #include <QSlider>
 #include <QSplitter>
+#include <QStackedWidget>
 
 #include "panels/form.h"
+#include "render/maps.h"
 #include "session/session.h"
 #include "views/picture_view.h"
 #include "views/scene_view.h"
@@ -20,11 +23,20 @@ QString mm(double value) {
 }  // namespace
 
 ComparePage::ComparePage(session::Session& session, QWidget* parent)
-    : QWidget(parent), session_(session), overlay_(new views::PictureView), scene_(new views::SceneView) {
+    : QWidget(parent),
+      session_(session),
+      overlay_(new views::PictureView),
+      scene_(new views::SceneView),
+      boxes_(new views::PictureView) {
   overlay_->setObjectName(QStringLiteral("overlayView"));
   overlay_->setHint(tr("Run the retraction to compare MRE with the atlas."));
   scene_->setObjectName(QStringLiteral("compareScene"));
   scene_->setHint(tr("The vessels in 3-D appear here."));
+  boxes_->setObjectName(QStringLiteral("boxPlotView"));
+  boxes_->setHint(tr("The box plot of the differences appears here."));
+  beside_ = new QStackedWidget;
+  beside_->addWidget(scene_);
+  beside_->addWidget(boxes_);
   auto* left = new QWidget;
   auto* column = new QVBoxLayout(left);
   column->setContentsMargins(0, 0, 0, 0);
@@ -45,7 +57,7 @@ ComparePage::ComparePage(session::Session& session, QWidget* parent)
   splitter->setHandleWidth(3);
   splitter->setChildrenCollapsible(false);
   splitter->addWidget(left);
-  splitter->addWidget(scene_);
+  splitter->addWidget(beside_);
   splitter->setSizes({1000, 1000});
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
@@ -54,6 +66,7 @@ ComparePage::ComparePage(session::Session& session, QWidget* parent)
   row->addWidget(makeSide());
   connect(slice_, &QSlider::valueChanged, this, [this] {
     chosen_ = true;
+    zoom_.reset();
     drawSlice();
   });
   connect(overlay_, &views::PictureView::sliceWanted, this,
@@ -80,11 +93,21 @@ QWidget* ComparePage::makeSide() {
   vessels_ = labelled({}, "faint");
   vessels_->setObjectName(QStringLiteral("vesselNumbers"));
   side->addWidget(vessels_);
+  side->addWidget(makeVesselList());
   side->addWidget(section(tr("How far to trust it")));
   validity_ = labelled({}, "faint");
   validity_->setObjectName(QStringLiteral("validityText"));
-  side->addWidget(validity_);
-  side->addStretch();
+  auto* room = new QScrollArea;  // what is to be said of a doubtful run may be longer than the window is high
+  room->setFrameShape(QFrame::NoFrame);
+  room->setWidgetResizable(true);
+  room->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  auto* words = new QWidget;
+  auto* wordColumn = new QVBoxLayout(words);
+  wordColumn->setContentsMargins(0, 0, 0, 0);
+  wordColumn->addWidget(validity_);
+  wordColumn->addStretch();
+  room->setWidget(words);
+  side->addWidget(room, 1);
   side->addWidget(section(tr("Display")));
   auto* form = new QFormLayout;
   colours_ = new QComboBox;
@@ -97,7 +120,25 @@ QWidget* ComparePage::makeSide() {
   view_->addItem(tr("From the front"), static_cast<int>(render::View3D::Anterior));
   view_->addItem(tr("From below"), static_cast<int>(render::View3D::Inferior));
   form->addRow(tr("Camera"), view_);
+  what_ = new QComboBox;
+  what_->setObjectName(QStringLiteral("sliceChoice"));
+  what_->addItems({tr("Overlay"), tr("Difference in mm")});
+  form->addRow(tr("Slice"), what_);
+  chart_ = new QComboBox;
+  chart_->setObjectName(QStringLiteral("besideChoice"));
+  chart_->addItems({tr("3-D"), tr("Box plot")});
+  form->addRow(tr("Beside it"), chart_);
   side->addLayout(form);
+  export_ = button("exportButton", tr("Export pictures and report…"), {},
+                   tr("Slices, difference map, 3-D and box plot in these colours, report and record of the run"));
+  export_->setEnabled(false);
+  side->addWidget(export_);
+  connect(export_, &QPushButton::clicked, this, &ComparePage::askWhereTo);
+  connect(what_, &QComboBox::currentIndexChanged, this, &ComparePage::drawSlice);
+  connect(chart_, &QComboBox::currentIndexChanged, this, [this](int index) {
+    beside_->setCurrentIndex(index);
+    view_->setEnabled(index == 0);
+  });
   connect(colours_, &QComboBox::currentIndexChanged, this, [this] {
     scene_->setPalette3D(palette_());
     drawSlice();
@@ -115,6 +156,9 @@ void ComparePage::showResult() {
   const auto picture = session_.picture();
   scene_->setScene(picture);
   slice_->setEnabled(picture != nullptr);
+  zoom_.reset();
+  showVessels();
+  drawBoxes();
   if (!picture) {
     overlay_->clear();
     sliceText_->clear();
@@ -140,17 +184,26 @@ void ComparePage::drawSlice() {
   options.slice = chosen_ ? slice_->value() : -1;
   options.palette = palette_();
   options.margin_mm = 40.0;
+  options.zoomCentre_lps_mm = zoom_;
+  const bool difference = what_->currentIndex() == 1;
   struct Drawn {
     render::Picture picture;
     int slice = 0;
   };
   auto drawn = std::make_shared<Drawn>();
   painter_.start(
-      [picture, options, drawn](const Progress&) mutable {
+      [picture, options, drawn, difference](const Progress&) mutable {
         // The first picture is of the slice where MRE and atlas differ most.
         if (options.slice < 0) options.slice = render::sliceOfLargestDifference(*picture);
         drawn->slice = options.slice;
-        drawn->picture = render::sliceOverlay(*picture, options);
+        if (difference) {
+          render::MapOptions map{.high = 10.0};
+          map.slice = options.slice;
+          map.margin_mm = options.margin_mm;
+          drawn->picture = render::differencePicture(*picture, map);
+        } else {
+          drawn->picture = render::sliceOverlay(*picture, options);
+        }
       },
       [this, picture, drawn](std::exception_ptr failure) {
         const int shown = drawn->slice;
@@ -192,13 +245,7 @@ void ComparePage::showNumbers() {
                               .arg(static_cast<qulonglong>(d.vessel_mm.size()))
                               .arg(mm(d.vesselMean_mm), mm(d.vesselP95_mm), mm(d.vesselMax_mm))
                               .arg(100.0 * d.vesselFractionBeyond, 0, 'f', 0));
-  QStringList words;
-  if (session_.resultIsStale()) words << tr("Something has changed since this run: run again.");
-  for (const std::string& w : result->primary.validity) words << QString::fromStdString(w);
-  for (const std::string& w : result->warnings) words << QString::fromStdString(w);
-  words.removeDuplicates();
-  validity_->setText(words.isEmpty() ? tr("No warning: strains and rotations are within linear theory.")
-                                     : words.join(QStringLiteral("\n")));
+  validity_->setText(trust());
 }
 
 }  // namespace glisson::panels

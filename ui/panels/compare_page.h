@@ -1,13 +1,19 @@
 #pragma once
 
 #include <QWidget>
+#include <optional>
+#include <vector>
 
 #include "render/overlay.h"
+#include "session/export_results.h"
 #include "session/worker.h"
 
 class QComboBox;
 class QLabel;
+class QPushButton;
 class QSlider;
+class QStackedWidget;
+class QTreeWidget;
 
 namespace glisson::session {
 class Session;
@@ -27,25 +33,41 @@ class ComparePage : public QWidget {
   explicit ComparePage(session::Session& session, QWidget* parent = nullptr);
   views::PictureView* overlayView() const { return overlay_; }
   views::SceneView* sceneView() const { return scene_; }
+  /// Pictures in the palette shown, the report and the record of the run, into a folder, by a worker.
+  void exportTo(const QString& folder);
 
  signals:
-  void overlayShown(int slice);  ///< a slice overlay was drawn and is on screen
+  void overlayShown(int slice);                     ///< a slice overlay was drawn and is on screen
+  void exported(int files, const QString& reason);  ///< reason: empty where it went well
 
  private:
   QWidget* makeSide();
   void showResult();
   void showNumbers();
+  void showVessels();
+  void showVessel(int row);
   void drawSlice();
+  void drawBoxes();
+  void askWhereTo();
+  QWidget* makeVesselList();
+  QString trust() const;
   render::Palette palette_() const;
   session::Session& session_;
   session::Worker painter_;  ///< draws slice overlays; only the latest wish counts
+  session::Worker charter_, exporter_;
+  std::vector<session::VesselPlace> places_;  ///< beyond 5 mm, as listed
+  std::optional<Eigen::Vector3d> zoom_;       ///< where the inset of the overlay looks
   bool wanted_ = false;
   bool chosen_ = false;  ///< else the slice of the largest difference is to be found and shown
   views::PictureView* overlay_;
   views::SceneView* scene_;
+  views::PictureView* boxes_;
+  QStackedWidget* beside_;
+  QTreeWidget* list_;
+  QPushButton* export_;
   QSlider* slice_;
   QLabel *sliceText_, *retractor_, *numbers_, *vessels_, *validity_;
-  QComboBox *colours_, *view_;
+  QComboBox *colours_, *view_, *what_, *chart_;
 };
 
 }  // namespace glisson::panels

@@ -132,6 +132,10 @@ void MainWindow::connectSession() {
   connect(&session_, &Session::saveFailed, this, [this](const QString& reason) {
     statusBar()->showMessage(tr("Not saved: %1 The outlines are kept.").arg(reason));
   });
+  connect(compare_, &ComparePage::exported, this, [this](int files, const QString& reason) {
+    statusBar()->showMessage(
+        reason.isEmpty() ? tr("Exported %1 files.").arg(files) : tr("Not exported: %1").arg(reason), 12000);
+  });
   connect(model_, &ModelPage::runWanted, this, &MainWindow::run);
   connect(retract_, &RetractPage::runWanted, this, &MainWindow::run);
   connect(&session_, &Session::statusChanged, this, &MainWindow::updateStatus);

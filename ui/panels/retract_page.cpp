@@ -4,13 +4,14 @@
 #include <QSlider>
 
 #include "panels/form.h"
+#include "panels/live_bar.h"
 #include "session/session.h"
 #include "views/scene_view.h"
 
 namespace glisson::panels {
 
 RetractPage::RetractPage(session::Session& session, QWidget* parent)
-    : QWidget(parent), session_(session), scene_(new views::SceneView) {
+    : QWidget(parent), session_(session), scene_(new views::SceneView), live_(new LiveBar(session, *scene_)) {
   scene_->setObjectName(QStringLiteral("retractView"));
   scene_->setHint(tr("Run the retraction to see the liver move."));
   auto* centre = new QWidget;
@@ -19,6 +20,7 @@ RetractPage::RetractPage(session::Session& session, QWidget* parent)
   column->setSpacing(0);
   column->addWidget(scene_, 1);
   column->addWidget(makePlayBar());
+  column->addWidget(live_);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(0);
@@ -50,6 +52,12 @@ QWidget* RetractPage::makePlayBar() {
   fraction_->setMinimumWidth(52);
   fraction_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   row->addWidget(fraction_);
+  // Playing shows the run; the hand shows the tool: one at a time.
+  connect(live_, &LiveBar::liveChanged, this, [this](bool live) {
+    if (live) setPlaying(false);
+    play_->setEnabled(!live && scene_->hasScene());
+    time_->setEnabled(!live && scene_->hasScene());
+  });
   connect(play_, &QPushButton::clicked, this, [this] { setPlaying(!clock_.isActive()); });
   connect(time_, &QSlider::valueChanged, this, [this](int value) {
     fraction_->setText(tr("%1 %").arg(value));

@@ -18,7 +18,9 @@ class SceneView;
 
 namespace glisson::panels {
 
-/// Retract: the retractor and the abdomen; after a run the moving liver with a play bar.
+class LiveBar;
+
+/// Retract: the retractor and the abdomen; after a run the moving liver with a play bar, and the retractor in the hand.
 class RetractPage : public QWidget {
   Q_OBJECT
  public:
@@ -37,6 +39,7 @@ class RetractPage : public QWidget {
   void setPlaying(bool playing);
   session::Session& session_;
   views::SceneView* scene_;
+  LiveBar* live_;
   QSlider* time_;
   QPushButton *play_, *run_;
   QLabel *fraction_, *numbers_, *validity_;

@@ -37,7 +37,7 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
   if (!parameters_.forceIsWeight) retractor.force_N = parameters_.force_N;
   s.setup.loads.push_back(retractor);
   s.compare = pipeline::CompareSpec{parameters_.atlasShear_kPa, StiffnessQuantity::Shear};
-  s.outputs.vessels = s.outputs.overlay = true;
+  s.outputs.vessels = s.outputs.overlay = s.outputs.report = true;
   return s;
 }
 

@@ -1,0 +1,137 @@
+// Compare: vessels beyond 5 mm, the box plot, what is said of trust, and the export.
+#include <QComboBox>
+#include <QFileDialog>
+#include <QHeaderView>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QTreeWidget>
+
+#include "panels/compare_page.h"
+#include "panels/form.h"
+#include "session/session.h"
+#include "views/picture_view.h"
+
+namespace glisson::panels {
+
+QWidget* ComparePage::makeVesselList() {
+  list_ = new QTreeWidget;
+  list_->setObjectName(QStringLiteral("vesselList"));
+  list_->setAccessibleName(tr("Places on vessels where MRE and atlas lie 5 mm or more apart"));
+  list_->setHeaderLabels({tr("Apart"), tr("Slice"), tr("L, P, S (mm)")});
+  list_->setRootIsDecorated(false);
+  list_->setUniformRowHeights(true);
+  list_->setFixedHeight(132);
+  list_->header()->setStretchLastSection(true);
+  list_->setColumnWidth(0, 78);
+  list_->setColumnWidth(1, 48);
+  list_->setToolTip(tr("Choose a place: the slice shows it, magnified"));
+  connect(list_, &QTreeWidget::currentItemChanged, this,
+          [this](QTreeWidgetItem* item) { showVessel(item ? list_->indexOfTopLevelItem(item) : -1); });
+  connect(list_, &QTreeWidget::itemClicked, this,
+          [this](QTreeWidgetItem* item) { showVessel(list_->indexOfTopLevelItem(item)); });
+  return list_;
+}
+
+void ComparePage::showVessels() {
+  const QSignalBlocker quiet(list_);
+  list_->clear();
+  places_.clear();
+  const auto result = session_.result();
+  const auto picture = session_.picture();
+  export_->setEnabled(result && picture && !exporter_.busy());
+  if (result && picture) places_ = session::vesselsBeyond(*result, *picture);
+  list_->setVisible(!places_.empty());
+  QList<QTreeWidgetItem*> rows;
+  for (const session::VesselPlace& place : places_) {
+    const double k = picture->mri.grid.lpsToIndex(place.seen_lps).z();
+    auto* row = new QTreeWidgetItem({tr("%1 mm").arg(place.apart_mm, 0, 'f', 1), QString::number(qRound(k) + 1),
+                                     QStringLiteral("%1, %2, %3")
+                                         .arg(place.rest_lps.x(), 0, 'f', 0)
+                                         .arg(place.rest_lps.y(), 0, 'f', 0)
+                                         .arg(place.rest_lps.z(), 0, 'f', 0)});
+    rows << row;
+  }
+  list_->addTopLevelItems(rows);
+}
+
+void ComparePage::showVessel(int row) {
+  const auto picture = session_.picture();
+  if (row < 0 || row >= static_cast<int>(places_.size()) || !picture) return;
+  zoom_ = places_[static_cast<std::size_t>(row)].seen_lps;
+  chosen_ = true;
+  const QSignalBlocker quiet(slice_);
+  slice_->setValue(qRound(picture->mri.grid.lpsToIndex(*zoom_).z()));
+  drawSlice();
+}
+
+void ComparePage::drawBoxes() {
+  boxes_->clear();
+  const auto result = session_.result();
+  const auto picture = session_.picture();
+  if (!result || !result->difference || !result->atlas || !picture || charter_.busy()) return;
+  auto drawn = std::make_shared<render::Picture>();
+  charter_.start(
+      [result, picture, drawn](const Progress&) {
+        *drawn = render::draw(session::differenceBoxes(*result, *picture), {1100, 1000});
+      },
+      [this, drawn, result](std::exception_ptr failure) {
+        if (result != session_.result())
+          drawBoxes();
+        else if (failure)
+          boxes_->setHint(session::reasonOf(failure));
+        else
+          boxes_->setPicture(*drawn);
+      });
+}
+
+QString ComparePage::trust() const {
+  const auto result = session_.result();
+  QStringList words;
+  if (session_.resultIsStale()) words << tr("Something has changed since this run: run again.");
+  for (const std::string& w : result->primary.validity) words << QString::fromStdString(w);
+  if (words.isEmpty()) words << tr("No warning: strains and rotations are within linear theory.");
+  if (result->discretisation) {
+    const retraction::DiscretisationError& e = *result->discretisation;
+    if (e.known) {
+      words << tr("The cells of %1 mm may shift a place by %2 mm on average, and by no more than %3 mm in 95 % of the "
+                  "liver (estimated from cells twice as large).")
+                   .arg(e.cell_mm, 0, 'f', 1)
+                   .arg(e.mean_mm, 0, 'f', 2)
+                   .arg(e.p95_mm, 0, 'f', 2);
+      if (result->difference && result->difference->mean_mm > 0.0)
+        words
+            << (e.mean_mm < 0.5 * result->difference->mean_mm
+                    ? tr("That is less than half of the mean difference shown.")
+                    : tr("That is more than half of the mean difference shown: use smaller cells before concluding."));
+    } else {
+      words << tr("How much the size of the cells matters is not known: %1").arg(QString::fromStdString(e.note));
+    }
+  }
+  for (const std::string& w : result->warnings) words << QString::fromStdString(w);
+  words.removeDuplicates();
+  return words.join(QStringLiteral("\n"));
+}
+
+void ComparePage::askWhereTo() {
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder for pictures and report"));
+  if (!folder.isEmpty()) exportTo(folder);
+}
+
+void ComparePage::exportTo(const QString& folder) {
+  const auto result = session_.result();
+  const auto picture = session_.picture();
+  if (!result || !picture || exporter_.busy()) return;
+  export_->setEnabled(false);
+  auto files = std::make_shared<int>(0);
+  exporter_.start(
+      [files, result, picture, palette = palette_(),
+       target = std::filesystem::path(folder.toStdString())](const Progress& progress) {
+        *files = static_cast<int>(session::exportResults(*result, *picture, palette, target, progress).size());
+      },
+      [this, files](std::exception_ptr failure) {
+        export_->setEnabled(session_.picture() != nullptr);
+        emit exported(*files, session::reasonOf(failure));
+      });
+}
+
+}  // namespace glisson::panels

@@ -1,0 +1,198 @@
+#include "panels/live_bar.h"
+
+#include <QHBoxLayout>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <cmath>
+
+#include "panels/form.h"
+#include "session/session.h"
+#include "views/scene_view.h"
+
+namespace glisson::panels {
+
+namespace {
+
+constexpr int reach_mm = 60;        // of the sliders
+constexpr double perStep_mm = 0.1;  // of a slider
+constexpr qint64 pause_ms = 1000;   // longer than this between pictures is no frame rate
+
+}  // namespace
+
+LiveBar::LiveBar(session::Session& session, views::SceneView& scene, QWidget* parent)
+    : QWidget(parent), session_(session), scene_(scene) {
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(14, 0, 14, 8);
+  column->setSpacing(4);
+  auto* row = new QHBoxLayout;
+  live_ = button("liveButton", tr("Move live"), {},
+                 tr("Drag the retractor in the picture, or use the sliders: both livers follow"));
+  live_->setCheckable(true);
+  live_->setEnabled(false);
+  row->addWidget(live_);
+  const std::array names = {tr("right – left"), tr("front – back"), tr("down – up")};
+  for (std::size_t a = 0; a < 3; ++a) {
+    row->addSpacing(10);
+    row->addWidget(labelled(names[a], "faint"));
+    slider_[a] = new QSlider(Qt::Horizontal);
+    slider_[a]->setObjectName(QStringLiteral("liveSlider%1").arg(QLatin1Char("LPS"[a])));
+    slider_[a]->setAccessibleName(tr("Tool, %1, mm").arg(names[a]));
+    slider_[a]->setRange(qRound(-reach_mm / perStep_mm), qRound(reach_mm / perStep_mm));
+    slider_[a]->setSingleStep(qRound(1.0 / perStep_mm));
+    slider_[a]->setPageStep(qRound(5.0 / perStep_mm));
+    slider_[a]->setEnabled(false);
+    row->addWidget(slider_[a], 1);
+    value_[a] = new QLabel;
+    value_[a]->setMinimumWidth(64);
+    value_[a]->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    row->addWidget(value_[a]);
+    connect(slider_[a], &QSlider::valueChanged, this, &LiveBar::take);
+  }
+  reset_ = button("liveReset", tr("As run"), {}, tr("Back to the force of the run"));
+  reset_->setEnabled(false);
+  row->addSpacing(10);
+  row->addWidget(reset_);
+  column->addLayout(row);
+  numbers_ = labelled(tr("Run the retraction; then the retractor can be moved by hand."), "faint");
+  numbers_->setObjectName(QStringLiteral("liveNumbers"));
+  column->addWidget(numbers_);
+  speed_ = labelled({}, "faint");
+  speed_->setObjectName(QStringLiteral("liveSpeed"));
+  column->addWidget(speed_);
+  connect(live_, &QPushButton::toggled, this, &LiveBar::setLive);
+  connect(reset_, &QPushButton::clicked, this, &LiveBar::reset);
+  connect(&scene_, &views::SceneView::toolDragged, this, &LiveBar::moveTool);
+  connect(&scene_, &views::SceneView::rendered, this, &LiveBar::pictureDrawn);
+  connect(&session_, &session::Session::runFinished, this, &LiveBar::build);
+  connect(&session_, &session::Session::loaded, this, &LiveBar::build);
+  connect(&worker_, &session::Worker::progressed, this, [this](double fraction) {
+    numbers_->setText(tr("Preparing to move live: %1 %").arg(qRound(100.0 * fraction)));
+  });
+}
+
+bool LiveBar::isLive() const {
+  return live_->isChecked();
+}
+
+void LiveBar::build() {
+  setLive(false);
+  pair_.reset();
+  live_->setEnabled(false);
+  speed_->clear();
+  if (worker_.busy()) {
+    again_ = true;
+    worker_.cancel();
+    return;
+  }
+  const auto result = session_.result();
+  const auto picture = session_.picture();
+  if (!result || !picture) {
+    numbers_->setText(tr("Run the retraction; then the retractor can be moved by hand."));
+    return;
+  }
+  auto made = std::make_shared<std::shared_ptr<const session::LivePair>>();
+  worker_.start(
+      [made, result, picture,
+       file = std::filesystem::path(session_.runFolder().toStdString()) / "scene.json"](const Progress& progress) {
+        *made = std::make_shared<const session::LivePair>(file, *picture, result->landmarks_mm, progress);
+      },
+      [this, made](std::exception_ptr failure) {
+        if (std::exchange(again_, false)) {
+          build();
+          return;
+        }
+        if (failure) {
+          numbers_->setText(tr("The retractor cannot be moved live. %1").arg(session::reasonOf(failure)));
+          return;
+        }
+        pair_ = *made;
+        live_->setEnabled(true);
+        numbers_->setText(tr("Ready: \"Move live\" puts the retractor into your hand."));
+        emit ready();
+      });
+}
+
+void LiveBar::setLive(bool live) {
+  live = live && pair_;
+  const QSignalBlocker quiet(live_);
+  live_->setChecked(live);
+  for (QSlider* slider : slider_) slider->setEnabled(live);
+  reset_->setEnabled(live);
+  scene_.setLive(live);
+  if (live)
+    reset();
+  else
+    for (QLabel* value : value_) value->clear();
+  if (!live && pair_) numbers_->setText(tr("Ready: \"Move live\" puts the retractor into your hand."));
+  emit liveChanged(live);
+}
+
+void LiveBar::reset() {
+  if (!pair_) return;
+  pair_->followForce(pair_->sceneForce_N(), frame_);
+  moveTool(frame_.toolMre_mm);
+}
+
+void LiveBar::take() {
+  if (!isLive()) return;
+  Eigen::Vector3d at;
+  for (int a = 0; a < 3; ++a) at[a] = perStep_mm * slider_[static_cast<std::size_t>(a)]->value();
+  show(at);
+}
+
+void LiveBar::moveTool(const Eigen::Vector3d& displacement_mm) {
+  if (!isLive()) return;
+  const Eigen::Vector3d at = displacement_mm.cwiseMax(-reach_mm).cwiseMin(reach_mm);
+  setSliders(at);
+  show(at);
+}
+
+void LiveBar::setSliders(const Eigen::Vector3d& displacement_mm) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    const QSignalBlocker quiet(slider_[a]);
+    slider_[a]->setValue(qRound(displacement_mm[static_cast<Eigen::Index>(a)] / perStep_mm));
+  }
+}
+
+void LiveBar::show(const Eigen::Vector3d& displacement_mm) {
+  QElapsedTimer clock;
+  clock.start();
+  pair_->followTool(displacement_mm, frame_);
+  scene_.moveLive(frame_.mre_mm, frame_.atlas_mm, frame_.toolMre_mm);
+  frame_s_ = 1e-9 * static_cast<double>(clock.nsecsElapsed());
+  for (std::size_t a = 0; a < 3; ++a)
+    value_[a]->setText(tr("%1 mm").arg(displacement_mm[static_cast<Eigen::Index>(a)], 0, 'f', 1));
+  QString text =
+      tr("Tool %1 mm from rest with %2 N (the run: %3 N). Difference under the bar, weighted by its pressure, %4 mm")
+          .arg(displacement_mm.norm(), 0, 'f', 1)
+          .arg(frame_.force_N.norm(), 0, 'f', 1)
+          .arg(pair_->sceneForce_N().norm(), 0, 'f', 1)
+          .arg(frame_.atTool_mm, 0, 'f', 2);
+  const auto landmarks = frame_.mre_mm.cols() - pair_->liverVertices() - pair_->vesselVertices();
+  if (landmarks > 0)
+    text += tr("; vessels: mean %1, largest %2 mm, %3 of %4 landmarks at 5 mm or more")
+                .arg(frame_.vesselMean_mm, 0, 'f', 2)
+                .arg(frame_.vesselMax_mm, 0, 'f', 2)
+                .arg(frame_.vesselsBeyond)
+                .arg(static_cast<qlonglong>(landmarks));
+  text += QLatin1Char('.');
+  if (frame_.force_N.norm() > 1.5 * pair_->sceneForce_N().norm())
+    text += QLatin1Char(' ') + tr("Linear theory, far beyond the force of the run: shapes are not to be trusted.");
+  numbers_->setText(text);
+  speed_->setText(tr("Simulation %1 ms a frame (%2 frames/s possible).")
+                      .arg(1e3 * frame_s_, 0, 'f', 2)
+                      .arg(1.0 / std::max(frame_s_, 1e-9), 0, 'f', 0));
+}
+
+void LiveBar::pictureDrawn() {
+  if (!isLive()) return;
+  const qint64 since = picture_.isValid() ? picture_.elapsed() : pause_ms;
+  picture_.start();
+  if (since <= 0 || since >= pause_ms) return;
+  speed_->setText(tr("Simulation %1 ms a frame (%2 frames/s possible); on screen %3 pictures/s.")
+                      .arg(1e3 * frame_s_, 0, 'f', 2)
+                      .arg(1.0 / std::max(frame_s_, 1e-9), 0, 'f', 0)
+                      .arg(1e3 / static_cast<double>(since), 0, 'f', 0));
+}
+
+}  // namespace glisson::panels

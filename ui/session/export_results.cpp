@@ -1,0 +1,92 @@
+#include "session/export_results.h"
+
+#include <algorithm>
+#include <string>
+
+#include "base/error.h"
+#include "pipeline/pictures.h"
+#include "render/colour_map.h"
+#include "session/atomic_file.h"
+
+namespace glisson::session {
+
+namespace {
+
+constexpr double voxel_mm = 1.64;  // of the paper's MRI
+
+Eigen::Vector3d nearest(const image::DisplacementField& u_mm, const Eigen::Vector3d& p_lps) {
+  const Eigen::Vector3i at = u_mm.grid.lpsToIndex(p_lps).array().round().cast<int>();
+  return u_mm.grid.contains(at) ? Eigen::Vector3d(u_mm.at(at).cast<double>()) : Eigen::Vector3d::Zero();
+}
+
+}  // namespace
+
+std::vector<VesselPlace> vesselsBeyond(const pipeline::RunResult& result, const render::RetractionScene& picture) {
+  std::vector<VesselPlace> places;
+  if (!result.difference) return places;
+  const std::vector<double>& apart = result.difference->vessel_mm;
+  for (std::size_t n = 0; n < std::min(apart.size(), result.landmarks_mm.size()); ++n) {
+    if (!(apart[n] >= picture.clinicallySignificant_mm)) continue;
+    const Eigen::Vector3d& p = result.landmarks_mm[n];
+    places.push_back({apart[n], p, p + 0.5 * (nearest(picture.u_mre_mm, p) + nearest(picture.u_atlas_mm, p))});
+  }
+  std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.apart_mm > b.apart_mm; });
+  return places;
+}
+
+render::BoxPlot differenceBoxes(const pipeline::RunResult& result, const render::RetractionScene& picture) {
+  if (!result.difference || !result.atlas) throw BadArgument("the run compares with no atlas: there is no difference");
+  render::BoxPlot plot;
+  plot.title = "MRE against atlas";
+  plot.y.title = "Displacement difference (mm)";
+  const image::Grid& grid = result.model.youngs_kPa.grid;
+  render::BoxPlot::Box liver{"whole liver", {}};
+  for (int k = 0; k < grid.size.z(); ++k)
+    for (int j = 0; j < grid.size.y(); ++j)
+      for (int i = 0; i < grid.size.x(); ++i)
+        if (result.model.youngs_kPa.at(i, j, k) > 0.0F)
+          liver.values.push_back((result.primary.u_mm.at(i, j, k) - result.atlas->u_mm.at(i, j, k)).norm());
+  plot.boxes.push_back(std::move(liver));
+  if (!result.difference->vessel_mm.empty()) plot.boxes.push_back({"vessels", result.difference->vessel_mm});
+  plot.lines = {{voxel_mm, "1.64 mm: one MRI voxel", render::colours::magenta},
+                {picture.clinicallySignificant_mm, "5 mm: clinically significant", render::colours::orange}};
+  plot.caption = picture.caption;
+  return plot;
+}
+
+std::vector<std::filesystem::path> exportResults(const pipeline::RunResult& result,
+                                                 const render::RetractionScene& picture, render::Palette palette,
+                                                 const std::filesystem::path& folder, const Progress& progress) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (!std::filesystem::is_directory(folder))
+    throw BadInput("cannot make the folder for the pictures; choose a place that can be written to");
+  pipeline::PictureData data{picture, {}};
+  const std::vector<VesselPlace> vessels = vesselsBeyond(result, picture);
+  if (!vessels.empty()) data.vessel_lps_mm = vessels.front().seen_lps;
+  pipeline::PictureOptions options;
+  options.palette = palette;
+  progress.report(0.0, "slices");
+  std::vector<std::filesystem::path> files = pipeline::drawSlices(data, options, folder);
+  progress.report(0.4, "3-D");
+  for (const auto& file : pipeline::draw3D(data, options, folder)) files.push_back(file);
+  progress.report(0.8, "charts and report");
+  if (result.difference && result.atlas) {
+    const render::BoxPlot plot = differenceBoxes(result, picture);
+    files.push_back(folder / "difference-boxes.png");
+    render::writePng(files.back(), render::draw(plot));
+    files.push_back(folder / "difference-boxes.svg");
+    writeAtomically(files.back(), render::svg(plot));
+  }
+  for (const auto& file : result.files)
+    if (file.filename() == "report.html" || file.filename() == "run.json") {
+      std::filesystem::copy_file(file, folder / file.filename(), std::filesystem::copy_options::overwrite_existing,
+                                 failed);
+      if (failed) throw BadInput("cannot copy " + file.filename().string() + " into the folder: " + failed.message());
+      files.push_back(folder / file.filename());
+    }
+  progress.report(1.0, "done");
+  return files;
+}
+
+}  // namespace glisson::session
