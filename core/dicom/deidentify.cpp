@@ -292,6 +292,11 @@ void save(DcmDataset& data, const ByteSource& source, const FileLayout& layout, 
 
 DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesystem::path& out, const ProjectKey& key,
                             const DeidentifyOptions& options, const Progress& progress) {
+  // The output must not be read again as input.
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(in),
+                              target = std::filesystem::weakly_canonical(out);
+  if (std::mismatch(whole.begin(), whole.end(), target.begin(), target.end()).first == whole.end())
+    throw BadInput("the output lies inside the input; choose a folder beside it");
   if (!std::filesystem::exists(in)) throw BadInput("there is nothing at the folder to de-identify");
   if (std::filesystem::exists(out) && !std::filesystem::is_empty(out))
     throw BadInput("the output folder is not empty; give a new one, so that nothing old is taken for de-identified");

@@ -119,6 +119,14 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
   // MR elastography reports the shear modulus unless told otherwise.
   out.map = elastography::makeStiffnessMap(dicom::readSeries(series, progress.part(0.4, 0.8)),
                                            meaning.quantity.value_or(StiffnessQuantity::Shear), *unit);
+  if (meaning.unit && series.unit && *meaning.unit != *series.unit)
+    out.warnings.push_back("the series says that its stiffness is in " + *series.unit + "; it was taken as " +
+                           *meaning.unit + ", as asked for");
+  if (meaning.quantity == StiffnessQuantity::Youngs)
+    out.warnings.push_back(
+        "the series was taken as Young's modulus, as asked for; MR elastography reports the shear modulus unless it "
+        "says "
+        "otherwise (a third of it)");
   out.map.frameOfReferenceUid = series.frameOfReferenceUid;
   out.patientKey = series.patientKey;
   out.studyDate = series.studyDate;
