@@ -17,7 +17,7 @@ namespace {
 constexpr int ownLimit = 2000;       ///< conjugate gradients without a limit of the options
 constexpr int multigridLimit = 100;  ///< iterations of a step before Auto falls back
 constexpr int directSize = 6000;     ///< degrees of freedom that Auto factorises: every step uses the factor again
-/// Iterations of block-Jacobi conjugate gradients that cost what the multigrid's do (tests/benchmark).
+/// Iterations of block-Jacobi conjugate gradients from which the multigrid is taken; an estimate from the work of both.
 constexpr double worthMultigrid = 45;
 
 }  // namespace
