@@ -36,17 +36,6 @@ double at(const Json& j, const char* key) {
 
 }  // namespace
 
-PrivateFolder::PrivateFolder() {
-  std::string name = (fs::temp_directory_path() / "glisson-cohort-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw BadInput("cannot make a temporary folder; is the disk full?");
-  path_ = name;
-}
-
-PrivateFolder::~PrivateFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 std::string anonymous(std::string message, const fs::path& folder, const std::string& id) {
   const std::string program = "glisson-cli: ";
   if (message.rfind(program, 0) == 0) message.erase(0, program.size());

@@ -90,7 +90,7 @@ std::vector<CaseOutcome> runPatients(const std::vector<Patient>& patients, const
   std::map<std::string, CaseOutcome> outcomes;
   std::vector<Job> jobs;
   std::vector<std::size_t> patientOf;
-  const detail::PrivateFolder work;
+  const PrivateFolder work;
   const int parallel = options.jobs > 0 ? options.jobs : jobsThatFit(expectedPeak_MB);
   const std::string threads = std::to_string(threadsEach(parallel));
   for (std::size_t i = 0; i < patients.size(); ++i) {

@@ -190,20 +190,6 @@ bool looksLikeZip(const fs::path& file) {
   return in && b[0] == 'P' && b[1] == 'K' && ((b[2] == 3 && b[3] == 4) || (b[2] == 5 && b[3] == 6));
 }
 
-PrivateFolder::PrivateFolder() {
-  std::error_code failed;
-  const fs::path base = fs::temp_directory_path(failed);
-  std::string pattern = (base / "glisson-XXXXXX").string();
-  if (failed || mkdtemp(pattern.data()) == nullptr)  // mode 0700
-    throw BadInput("cannot be unpacked: there is no temporary folder that may be written to");
-  path_ = pattern;
-}
-
-PrivateFolder::~PrivateFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 std::unique_ptr<PrivateFolder> unpackArchive(const fs::path& file, std::vector<SkippedFile>& skipped) {
   auto folder = std::make_unique<PrivateFolder>();
   std::error_code failed;

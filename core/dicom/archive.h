@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/private_folder.h"
 #include "dicom/file_layout.h"
 #include "dicom/series.h"
 
@@ -24,19 +25,6 @@ void readArchive(ByteSource& source, const ArchiveEntries& entries);
 
 /// Whether a file begins as a ZIP archive does.
 bool looksLikeZip(const std::filesystem::path& file);
-
-/// A private folder below the system's temporary one, mode 0700, removed with everything in it by the destructor.
-class PrivateFolder {
- public:
-  PrivateFolder();
-  ~PrivateFolder();
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Unpacks a ZIP archive, read by a reader process, into a private folder. Entries keep their names where these are
 /// plain relative paths; links, absolute paths, "..", archives in the archive and encrypted entries are left out, with

@@ -5,6 +5,9 @@
 #include <fstream>
 #include <map>
 
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
 #include "base/error.h"
 #include "dicom/detail/attributes.h"
 #include "dicom/detail/deidentify_actions.h"

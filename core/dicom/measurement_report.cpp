@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
 #include "base/error.h"
 #include "base/sha256.h"
 #include "dicom/detail/writer.h"

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
 #include "base/error.h"
 #include "base/sha256.h"
 #include "dicom/detail/writer.h"

@@ -1,5 +1,8 @@
 #include "dicom/secondary_capture.h"
 
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
 #include "base/error.h"
 #include "base/sha256.h"
 #include "dicom/detail/writer.h"

@@ -1,14 +1,16 @@
-#include "dicom/detail/writer.h"
-
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <memory>
 
+#include <dcmtk/config/osconfig.h>
+#include <dcmtk/dcmdata/dctk.h>
+
 #include "base/error.h"
 #include "base/version.h"
 #include "dicom/detail/attributes.h"
+#include "dicom/detail/writer.h"
 #include "dicom/write_mr.h"
 
 namespace glisson::dicom {

@@ -30,7 +30,7 @@ struct Limits {
   std::uint64_t objectBytes = std::uint64_t{2} << 30;  ///< of one object; a larger one ends the association
   std::uint64_t totalBytes = std::uint64_t{64} << 30;  ///< of all together; further ones are refused
   std::size_t objects = 200000;                        ///< further ones are refused
-  std::size_t associations = 4;                        ///< at the same time; further ones are rejected for now
+  std::size_t associations = 4;                        ///< at the same time; further ones are rejected until one ends
   int association_s = 4 * 3600;                        ///< longest association
 };
 

@@ -4,9 +4,11 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/private_folder.h"
 #include "base/version.h"
 #include "pipeline/detail/record.h"
 #include "pipeline/run.h"
@@ -55,24 +57,6 @@ void lookForInputsBelow(const std::filesystem::path& root, Json& scene) {
       for (Json& item : scene[list])
         if (item.is_object() && item.contains("region")) lookBelow(root, item["region"], "mask");
 }
-
-/// A folder that goes when the replay ends.
-struct Workplace {
-  std::filesystem::path folder;
-  bool temporary = false;
-  explicit Workplace(const std::filesystem::path& asked) : folder(asked), temporary(asked.empty()) {
-    if (!temporary) return;
-    std::string pattern = (std::filesystem::temp_directory_path() / "glisson-replay-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw BadInput("cannot make a temporary folder; name one with --output");
-    folder = pattern;
-  }
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
-  ~Workplace() {
-    std::error_code ignored;
-    if (temporary) std::filesystem::remove_all(folder, ignored);
-  }
-};
 
 std::vector<ReplayedFile> compared(const Json& then, const Json& now) {
   std::vector<ReplayedFile> files;
@@ -126,9 +110,12 @@ ReplayResult replay(const std::filesystem::path& recordFile, const ReplayOptions
       result.notes.push_back("the run was made by version " + record.at("version").get<std::string>() + ", commit " +
                              record.at("commit").get<std::string>() + "; this is version " + version() + ", commit " +
                              buildCommit());
-    const Workplace place(options.output);
+    // Where no folder is asked for, the results go when the replay ends.
+    std::optional<PrivateFolder> temporary;
+    if (options.output.empty()) temporary.emplace();
+    const std::filesystem::path& place = temporary ? temporary->path() : options.output;
     RunOptions runOptions;
-    runOptions.output = place.folder;
+    runOptions.output = place;
     runOptions.palette =
         record.at("palette") == "colour-blind" ? render::Palette::ColourBlind : render::Palette::RedBlue;
     const Json again = Json::parse(run(scene, runOptions, progress).json);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/private_folder.h"
 #include "base/progress.h"
 #include "cohort/patients.h"
 #include "cohort/records.h"
@@ -45,19 +46,6 @@ void studyChosen(Summary& summary, const std::map<std::string, std::string>& sce
 /// Writes figures, tables, cohort.json and report.html; returns the files and sets json.
 std::vector<std::filesystem::path> writeSummary(const Summary& summary, const CohortOptions& options,
                                                 std::string& json);
-
-/// A folder of one's own for scenes with paths in them, removed with the object.
-class PrivateFolder {
- public:
-  PrivateFolder();
-  ~PrivateFolder();
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A command's last message without the program's name, the patient's folder and its name.
 std::string anonymous(std::string message, const std::filesystem::path& folder, const std::string& id);

@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include <dcmtk/config/osconfig.h>
-#include <dcmtk/dcmdata/dctk.h>
 #include "dicom/series.h"
 
 namespace glisson::dicom {

@@ -31,7 +31,7 @@ std::string rejection(const Node& node, T_ASC_Parameters* parameters) {
       return "it does not speak this version of DICOM";
     default:
       return r.result == ASC_RESULT_REJECTEDTRANSIENT
-                 ? "for now, without a reason; try again later"
+                 ? "it gave no reason, but may accept later; try again"
                  : "it gave no reason; does it know our AE title '" + node.callingTitle + "'?";
   }
 }

@@ -37,9 +37,9 @@ void misbehave(const glisson::dicom::ByteSource& source) {
     if (write(glisson::dicom::detail::readerSocket, &head, sizeof(head)) < 0) _exit(1);
   } else if (asks("FAULT-FILE")) {
     // No limit lets it write a file: SIGXFSZ ends it.
-    char name[] = "glisson-faulty-XXXXXX";
-    const int file = mkstemp(name);
-    unlink(name);
+    std::string name = "glisson-faulty-" + std::string(6, 'X');
+    const int file = mkstemp(name.data());
+    unlink(name.c_str());
     if (file >= 0 && write(file, "x", 1) == 1) _exit(0);
   }
 }

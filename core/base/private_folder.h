@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+
+namespace glisson {
+
+/// A folder below the system's temporary one that only this user may enter (mode 0700), removed with everything in it
+/// by the destructor.
+class PrivateFolder {
+ public:
+  /// Throws BadInput where no temporary folder can be made.
+  PrivateFolder();
+  ~PrivateFolder();
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace glisson
