@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/xml_text.h"
 #include "exchange/text_file.h"
-#include "exchange/xml_text.h"
 #include "retraction/body.h"
 
 namespace glisson::exchange {

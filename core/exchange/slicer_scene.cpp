@@ -1,7 +1,7 @@
 #include "exchange/slicer_scene.h"
 
+#include "base/xml_text.h"
 #include "exchange/text_file.h"
-#include "exchange/xml_text.h"
 
 namespace glisson::exchange {
 namespace {

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <locale>
 
+#include "base/xml_text.h"
+
 namespace glisson::render {
 namespace {
 
@@ -11,23 +13,6 @@ std::string hex(Rgb c) {
   char text[8];
   std::snprintf(text, sizeof text, "#%02x%02x%02x", c.r, c.g, c.b);
   return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out;
 }
 
 }  // namespace
@@ -68,7 +53,7 @@ void SvgPainter::text(const Point& at, const std::string& utf8, const TextStyle&
   if (style.alpha < 1.0) out_ << " fill-opacity=\"" << style.alpha << '"';
   if (style.angle_deg != 0.0)
     out_ << " transform=\"rotate(" << -style.angle_deg << ' ' << at.x() << ' ' << at.y() << ")\"";
-  out_ << '>' << escaped(utf8) << "</text>\n";
+  out_ << '>' << xmlEscaped(utf8) << "</text>\n";
 }
 
 std::string SvgPainter::document() const {

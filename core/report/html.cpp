@@ -7,32 +7,10 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "base/xml_text.h"
 
 namespace glisson::report {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string base64(const std::string& bytes) {
   static constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -62,56 +40,56 @@ constexpr const char* style =
 HtmlReport::HtmlReport(std::string title) : title_(std::move(title)) {}
 
 void HtmlReport::heading(const std::string& text) {
-  body_ += "<h2>" + escaped(text) + "</h2>\n";
+  body_ += "<h2>" + xmlEscaped(text) + "</h2>\n";
 }
 
 void HtmlReport::paragraph(const std::string& text) {
-  body_ += "<p>" + escaped(text) + "</p>\n";
+  body_ += "<p>" + xmlEscaped(text) + "</p>\n";
 }
 
 void HtmlReport::list(const std::vector<std::string>& items) {
   body_ += "<ul>\n";
-  for (const std::string& item : items) body_ += "<li>" + escaped(item) + "</li>\n";
+  for (const std::string& item : items) body_ += "<li>" + xmlEscaped(item) + "</li>\n";
   body_ += "</ul>\n";
 }
 
 void HtmlReport::table(const std::vector<std::pair<std::string, std::string>>& rows) {
   body_ += "<table>\n";
   for (const auto& [what, value] : rows)
-    body_ += "<tr><td>" + escaped(what) + "</td><td>" + escaped(value) + "</td></tr>\n";
+    body_ += "<tr><td>" + xmlEscaped(what) + "</td><td>" + xmlEscaped(value) + "</td></tr>\n";
   body_ += "</table>\n";
 }
 
 void HtmlReport::table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
   body_ += "<table class=\"wide\">\n<tr>";
-  for (const std::string& cell : header) body_ += "<th>" + escaped(cell) + "</th>";
+  for (const std::string& cell : header) body_ += "<th>" + xmlEscaped(cell) + "</th>";
   body_ += "</tr>\n";
   for (const auto& row : rows) {
     if (row.size() != header.size())
       throw BadArgument("HtmlReport: a row has " + std::to_string(row.size()) + " cells, not " +
                         std::to_string(header.size()));
     body_ += "<tr>";
-    for (const std::string& cell : row) body_ += "<td>" + escaped(cell) + "</td>";
+    for (const std::string& cell : row) body_ += "<td>" + xmlEscaped(cell) + "</td>";
     body_ += "</tr>\n";
   }
   body_ += "</table>\n";
 }
 
 void HtmlReport::warning(const std::string& text) {
-  body_ += "<p class=\"warning\">" + escaped(text) + "</p>\n";
+  body_ += "<p class=\"warning\">" + xmlEscaped(text) + "</p>\n";
 }
 
 void HtmlReport::picture(const std::filesystem::path& png, const std::string& caption) {
   std::ifstream in(png, std::ios::binary);
   if (!in) throw BadInput("the report cannot read the picture '" + png.filename().string() + "'");
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  body_ += "<figure><img alt=\"" + escaped(caption) + "\" src=\"data:image/png;base64," + base64(bytes) +
-           "\"><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+  body_ += "<figure><img alt=\"" + xmlEscaped(caption) + "\" src=\"data:image/png;base64," + base64(bytes) +
+           "\"><figcaption>" + xmlEscaped(caption) + "</figcaption></figure>\n";
 }
 
 std::string HtmlReport::html() const {
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + escaped(title_) +
-         "</title><style>" + style + "</style></head>\n<body>\n<h1>" + escaped(title_) + "</h1>\n" + body_ +
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + xmlEscaped(title_) +
+         "</title><style>" + style + "</style></head>\n<body>\n<h1>" + xmlEscaped(title_) + "</h1>\n" + body_ +
          "<footer>" + researchUseOnly + "</footer>\n</body></html>\n";
 }
 

@@ -1,6 +1,6 @@
-#include "exchange/xml_text.h"
+#include "base/xml_text.h"
 
-namespace glisson::exchange {
+namespace glisson {
 
 std::string xmlEscaped(const std::string& text) {
   std::string out;
@@ -15,10 +15,12 @@ std::string xmlEscaped(const std::string& text) {
       out += "&quot;";
     else if (c == '\'')
       out += "&apos;";
+    else if (c == '\n' || c == '\r' || c == '\t')
+      out += ' ';
     else if (static_cast<unsigned char>(c) >= 0x20)
       out += c;
   }
   return out;
 }
 
-}  // namespace glisson::exchange
+}  // namespace glisson
