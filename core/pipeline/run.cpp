@@ -194,7 +194,8 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
 
   if (needs.pictures && r.primary.drawable && r.atlas && !r.atlas->drawable)
     r.warnings.push_back("no picture is drawn, because of the atlas prediction: " +
-                         (r.atlas->validity.empty() ? "it is no deformation" : r.atlas->validity.front()));
+                         (r.atlas->validity.empty() ? "it is no deformation" : r.atlas->validity.front()) +
+                         "; spread the load (\"spread_mm\" of the retractor), or choose another model or larger cells");
 
   steps.run("linear-solve", [&](const Progress& p) {
     retraction::Setup setup = scene.setup;

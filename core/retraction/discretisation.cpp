@@ -41,6 +41,22 @@ void requireConverged(const retraction::Result& r) {
                        r.solver.tolerance);
 }
 
+/// The answer in larger tetrahedra: twice the edge, or as near to it as the mesher's gates allow; in `ratio` how many
+/// times. Throws what the mesher says where not even one and a half times the edge pass.
+retraction::Result inLargerTetrahedra(const retraction::Model& model, retraction::Setup setup, double& ratio,
+                                      const Progress& progress) {
+  const double cell_mm = setup.model.cell_mm, tool_mm = setup.model.toolCell_mm;
+  for (ratio = 2.0;; ratio -= 0.25) {
+    setup.model.cell_mm = ratio * cell_mm;
+    setup.model.toolCell_mm = ratio * tool_mm;
+    try {
+      return retraction::simulate(model, setup, {}, progress);
+    } catch (const BadInput&) {
+      if (ratio < 1.6) throw;
+    }
+  }
+}
+
 }  // namespace
 
 retraction::Model coarsened(const retraction::Model& model) {
@@ -112,24 +128,23 @@ DiscretisationError discretisationError(const retraction::Model& model, const re
     }
     // Tetrahedra of their own size: the same body, in cells twice as large.
     const bool delaunay = setup.model.kind == retraction::ModelKind::FemTet && setup.model.delaunay;
-    if (delaunay) {
-      e.cell_mm = setup.model.cell_mm;
-      e.coarse_mm = 2.0 * e.cell_mm;
-      voxels.model.cell_mm *= 2.0;
-      voxels.model.toolCell_mm *= 2.0;
-    }
+    if (delaunay) e.cell_mm = setup.model.cell_mm;
     const bool split = setup.model.kind == retraction::ModelKind::FemHex &&
                        setup.kinematics == retraction::Kinematics::Linear && model.cells <= splitLimit &&
                        !mergesExactly(model);
-    if (split) e.coarse_mm = 0.5 * e.cell_mm;
     const retraction::Model half = delaunay ? model : split ? refined(model) : coarsened(model);
-    const retraction::Result rough = retraction::simulate(half, voxels, {}, progress.part(frames ? 0.8 : 0.0, 1.0));
+    const Progress rest = progress.part(frames ? 0.8 : 0.0, 1.0);
+    double ratio = 2.0;
+    const retraction::Result rough =
+        delaunay ? inLargerTetrahedra(half, voxels, ratio, rest) : retraction::simulate(half, voxels, {}, rest);
+    e.coarse_mm = (split ? 0.5 : ratio) * e.cell_mm;
     requireConverged(rough);
     const std::vector<Eigen::Vector3d> coarse = retraction::displacementAt(half, rough, points);
     std::vector<double> error;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      // Against cells of half the edge, first order leaves as much again.
-      const double d = (own[i] - fine[i]).norm() + (split ? 2.0 : 1.0) * (fine[i] - coarse[i]).norm();
+      // An error e of first order differs by e (ratio − 1) from that of larger cells, and by e / 2 from that of half
+      // cells.
+      const double d = (own[i] - fine[i]).norm() + (split ? 2.0 : 1.0 / (ratio - 1.0)) * (fine[i] - coarse[i]).norm();
       if (std::isfinite(d)) error.push_back(d);
     }
     if (error.empty()) throw BadInput("no cell of one grid lies inside the other");

@@ -31,7 +31,8 @@ retraction::Setup held(const retraction::Setup& setup, const retraction::Model& 
 /// Estimate from two grids, cells and twice the cells: |u_h − u_2h|, which is the error of u_h where it falls with
 /// first order, as staircase surfaces and clamped edges make it, and up to three times the error where it falls faster.
 /// A body of at most 20,000 voxels that cannot be merged two by two without changing its shape is split instead:
-/// 2 |u_h − u_h/2|, the same to first order. Below the size of what bends, either may fall short of the error.
+/// 2 |u_h − u_h/2|, the same to first order. Delaunay tetrahedra that fail their gates at twice the edge are made
+/// 1.75 or 1.5 times as large, and the difference divided by ratio − 1. Below the size of what bends, either may fall short of the error.
 /// For a mesh-free result the distance from the voxel FEM on its own cells is added. Costs one solve with an eighth of
 /// the cells (mesh-free: one more with all of them). Throws Cancelled; whatever else goes wrong on the coarse grid is
 /// told in the note.
