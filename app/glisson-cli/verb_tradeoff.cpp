@@ -1,7 +1,7 @@
 #include "study/tradeoff.h"
 
 #include "pipeline/scene.h"
-#include "report/html.h"
+#include "report/text.h"
 #include "study_json.h"
 
 namespace glisson::cli {

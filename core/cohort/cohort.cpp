@@ -10,7 +10,7 @@
 #include "base/version.h"
 #include "cohort/detail/summary.h"
 #include "cohort/processes.h"
-#include "report/html.h"
+#include "report/text.h"
 
 namespace glisson::cohort {
 namespace {

@@ -7,7 +7,8 @@
 #include "cohort/detail/summary.h"
 #include "render/charts.h"
 #include "render/picture.h"
-#include "report/html.h"
+#include "report/page.h"
+#include "report/text.h"
 
 namespace glisson::cohort::detail {
 namespace {
@@ -179,7 +180,7 @@ void flatten(const Json& j, const std::string& path, std::vector<std::pair<std::
   }
 }
 
-void methods(report::HtmlReport& page, const Summary& s) {
+void methods(report::Page& page, const Summary& s) {
   page.heading("Methods");
   page.paragraph(
       "Every patient's region of interest was mapped onto the elastogram by patient geometry; voxels whose centre lies "
@@ -197,7 +198,7 @@ void methods(report::HtmlReport& page, const Summary& s) {
   }
 }
 
-void sensitivityTable(report::HtmlReport& page, const Summary& s) {
+void sensitivityTable(report::Page& page, const Summary& s) {
   std::vector<std::string> header = {"Assumption"};
   for (const Chosen& c : s.chosen) header.push_back(c.id + " (" + c.what + "), mm");
   header.push_back("beyond 5 mm");
@@ -237,7 +238,7 @@ std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& option
   text("patients.csv", patientsCsv(s));
   text("rejected.csv", rejectedCsv(s));
 
-  report::HtmlReport page("Cohort of " + std::to_string(s.records.size()) + " patients");
+  report::Page page("Cohort of " + std::to_string(s.records.size()) + " patients");
   const RetractionStudy& b = s.retraction;
   page.table({{"Patients tried", std::to_string(b.tried)},
               {"Rejected", std::to_string(b.rejected)},
@@ -317,7 +318,8 @@ std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& option
   page.table({"Patient", "µ, kPa", "E = 3µ, kPa", "Volume, mL", "Mean difference, mm", "At the retractor, mm",
               "Discretisation error, mm", "Strain (95 %)", "Linear theory"},
              rows);
-  text("report.html", page.html());
+  text("report.html", report::html(page));
+  text("report.pdf", report::pdf(page));
   return files;
 }
 

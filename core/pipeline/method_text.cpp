@@ -1,7 +1,7 @@
 #include "pipeline/detail/method_text.h"
 
 #include "pipeline/detail/record.h"
-#include "report/html.h"
+#include "report/text.h"
 
 namespace glisson::pipeline::detail {
 namespace {

@@ -10,7 +10,7 @@
 #include "image/extend.h"
 #include "image/io.h"
 #include "pipeline/pictures.h"
-#include "report/html.h"
+#include "report/text.h"
 
 namespace glisson::pipeline::detail {
 namespace {

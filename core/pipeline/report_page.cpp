@@ -6,12 +6,13 @@
 #include "pipeline/detail/method_text.h"
 #include "pipeline/detail/outputs.h"
 #include "pipeline/detail/record.h"
-#include "report/html.h"
+#include "report/page.h"
+#include "report/text.h"
 
 namespace glisson::pipeline::detail {
 namespace {
 
-using report::HtmlReport;
+using report::Page;
 using report::number;
 
 /// Components that are rounding beside the largest are zero.
@@ -22,7 +23,7 @@ std::string inWords(const Eigen::Vector3d& v) {
   return part(v.x()) + ", " + part(v.y()) + ", " + part(v.z());
 }
 
-void results(HtmlReport& page, const RunResult& r) {
+void results(Page& page, const RunResult& r) {
   page.heading("Result");
   std::vector<std::pair<std::string, std::string>> rows;
   if (r.difference) {
@@ -54,11 +55,11 @@ void results(HtmlReport& page, const RunResult& r) {
 }
 
 /// A list where there is something to list.
-void listed(HtmlReport& page, const std::vector<std::string>& items) {
+void listed(Page& page, const std::vector<std::string>& items) {
   if (!items.empty()) page.list(items);
 }
 
-void trust(HtmlReport& page, const RunResult& r) {
+void trust(Page& page, const RunResult& r) {
   page.heading("Can it be trusted?");
   if (r.primary.linearTrusted)
     page.paragraph(r.primary.kinematics == retraction::Kinematics::Linear
@@ -93,7 +94,7 @@ std::string verdict(const retraction::Result& r) {
   return r.linearTrusted ? "within its limits" : "outside its limits";
 }
 
-void kinematics(HtmlReport& page, const RunResult& r) {
+void kinematics(Page& page, const RunResult& r) {
   if (!r.linear) return;
   const retraction::Result &own = r.primary, &linear = r.linear->primary;
   const Motion a = motionOf(r.model, linear), b = motionOf(r.model, own);
@@ -148,7 +149,7 @@ std::string captionOf(const std::string& name) {
 
 void Writer::report(const Scene& scene, const RunResult& r,
                     const std::vector<std::pair<std::string, std::string>>& inputs) {
-  HtmlReport page(r.difference ? "Liver retraction, measured against textbook stiffness" : "Deformation under load");
+  Page page(r.difference ? "Liver retraction, measured against textbook stiffness" : "Deformation under load");
   results(page, r);
   trust(page, r);
   kinematics(page, r);
@@ -167,7 +168,8 @@ void Writer::report(const Scene& scene, const RunResult& r,
   for (const auto& [name, digest] : inputs) rows.push_back({"input", name, digest});
   for (const auto& f : r.files) rows.push_back({"output", f.filename().string(), sha256OfFile(f)});
   if (!rows.empty()) page.table({"", "what", "SHA-256"}, rows);
-  text("report.html", page.html());
+  text("report.html", report::html(page));
+  text("report.pdf", report::pdf(page));
 }
 
 }  // namespace glisson::pipeline::detail

@@ -240,6 +240,15 @@ std::string written(const Chart& chart, const ChartSize& size) {
 
 }  // namespace
 
+void paint(Painter& painter, const Histogram& chart, const ChartSize& size) {
+  paintChart(painter, chart, size);
+}
+void paint(Painter& painter, const BoxPlot& chart, const ChartSize& size) {
+  paintChart(painter, chart, size);
+}
+void paint(Painter& painter, const XyChart& chart, const ChartSize& size) {
+  paintChart(painter, chart, size);
+}
 Picture draw(const Histogram& chart, const ChartSize& size) {
   return drawn(chart, size);
 }

@@ -70,6 +70,10 @@ struct ChartSize {
   int height = 1100;
 };
 
+/// Onto whatever draws: a PDF page, for instance; in pixels, from (0, 0) to (width, height).
+void paint(Painter& painter, const Histogram& chart, const ChartSize& size = {});
+void paint(Painter& painter, const BoxPlot& chart, const ChartSize& size = {});
+void paint(Painter& painter, const XyChart& chart, const ChartSize& size = {});
 Picture draw(const Histogram& chart, const ChartSize& size = {});
 Picture draw(const BoxPlot& chart, const ChartSize& size = {});
 Picture draw(const XyChart& chart, const ChartSize& size = {});

@@ -106,6 +106,10 @@ double advance_px(FT_GlyphSlot glyph, double bold_px) {
 
 }  // namespace
 
+std::span<const unsigned char> builtInFont() {
+  return {glisson_font_begin, glisson_font_end};
+}
+
 double textWidth(const std::string& utf8, double size_px, bool bold) {
   const std::scoped_lock lock(fontMutex);
   Font& f = font();

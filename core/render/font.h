@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct TextShape {
 /// Rasterises one line of UTF-8 with the built-in font (DejaVu Sans): the same pixels on every machine, whatever fonts
 /// it has, and no OpenGL. Safe to call from any thread.
 TextMask rasterText(const std::string& utf8, const TextShape& shape);
+
+/// The font file itself (TrueType), for documents that carry their font.
+std::span<const unsigned char> builtInFont();
 
 /// Advance width of one line, pixels.
 double textWidth(const std::string& utf8, double size_px, bool bold = false);

@@ -1,13 +1,10 @@
-#include "report/html.h"
-
-#include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 
 #include "base/error.h"
 #include "base/version.h"
 #include "base/xml_text.h"
+#include "report/page.h"
 
 namespace glisson::report {
 namespace {
@@ -35,89 +32,47 @@ constexpr const char* style =
     "td:last-child{font-variant-numeric:tabular-nums}figure{margin:1rem 0}img{max-width:100%}"
     "figcaption{color:#57606a;font-size:.9rem}footer{margin-top:3rem;color:#9a1c1c;font-weight:600}";
 
+struct Writer {
+  std::string& out;
+
+  void operator()(const Heading& b) const { out += "<h2>" + xmlEscaped(b.text) + "</h2>\n"; }
+  void operator()(const Paragraph& b) const { out += "<p>" + xmlEscaped(b.text) + "</p>\n"; }
+  void operator()(const Warning& b) const { out += "<p class=\"warning\">" + xmlEscaped(b.text) + "</p>\n"; }
+  void operator()(const List& b) const {
+    out += "<ul>\n";
+    for (const std::string& item : b.items) out += "<li>" + xmlEscaped(item) + "</li>\n";
+    out += "</ul>\n";
+  }
+  void operator()(const Table& b) const {
+    out += b.header.empty() ? "<table>\n" : "<table class=\"wide\">\n";
+    if (!b.header.empty()) row("th", b.header);
+    for (const auto& cells : b.rows) row("td", cells);
+    out += "</table>\n";
+  }
+  void operator()(const Figure& b) const {
+    std::ifstream in(b.png, std::ios::binary);
+    if (!in) throw BadInput("the report cannot read the picture '" + b.png.filename().string() + "'");
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const std::string caption = xmlEscaped(b.caption);
+    out += "<figure><img alt=\"" + caption + "\" src=\"data:image/png;base64," + base64(bytes) + "\"><figcaption>" +
+           caption + "</figcaption></figure>\n";
+  }
+
+  void row(const char* cell, const std::vector<std::string>& cells) const {
+    out += "<tr>";
+    for (const std::string& text : cells) out += std::string("<") + cell + ">" + xmlEscaped(text) + "</" + cell + ">";
+    out += "</tr>\n";
+  }
+};
+
 }  // namespace
 
-HtmlReport::HtmlReport(std::string title) : title_(std::move(title)) {}
-
-void HtmlReport::heading(const std::string& text) {
-  body_ += "<h2>" + xmlEscaped(text) + "</h2>\n";
-}
-
-void HtmlReport::paragraph(const std::string& text) {
-  body_ += "<p>" + xmlEscaped(text) + "</p>\n";
-}
-
-void HtmlReport::list(const std::vector<std::string>& items) {
-  body_ += "<ul>\n";
-  for (const std::string& item : items) body_ += "<li>" + xmlEscaped(item) + "</li>\n";
-  body_ += "</ul>\n";
-}
-
-void HtmlReport::table(const std::vector<std::pair<std::string, std::string>>& rows) {
-  body_ += "<table>\n";
-  for (const auto& [what, value] : rows)
-    body_ += "<tr><td>" + xmlEscaped(what) + "</td><td>" + xmlEscaped(value) + "</td></tr>\n";
-  body_ += "</table>\n";
-}
-
-void HtmlReport::table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
-  body_ += "<table class=\"wide\">\n<tr>";
-  for (const std::string& cell : header) body_ += "<th>" + xmlEscaped(cell) + "</th>";
-  body_ += "</tr>\n";
-  for (const auto& row : rows) {
-    if (row.size() != header.size())
-      throw BadArgument("HtmlReport: a row has " + std::to_string(row.size()) + " cells, not " +
-                        std::to_string(header.size()));
-    body_ += "<tr>";
-    for (const std::string& cell : row) body_ += "<td>" + xmlEscaped(cell) + "</td>";
-    body_ += "</tr>\n";
-  }
-  body_ += "</table>\n";
-}
-
-void HtmlReport::warning(const std::string& text) {
-  body_ += "<p class=\"warning\">" + xmlEscaped(text) + "</p>\n";
-}
-
-void HtmlReport::picture(const std::filesystem::path& png, const std::string& caption) {
-  std::ifstream in(png, std::ios::binary);
-  if (!in) throw BadInput("the report cannot read the picture '" + png.filename().string() + "'");
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  body_ += "<figure><img alt=\"" + xmlEscaped(caption) + "\" src=\"data:image/png;base64," + base64(bytes) +
-           "\"><figcaption>" + xmlEscaped(caption) + "</figcaption></figure>\n";
-}
-
-std::string HtmlReport::html() const {
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + xmlEscaped(title_) +
-         "</title><style>" + style + "</style></head>\n<body>\n<h1>" + xmlEscaped(title_) + "</h1>\n" + body_ +
-         "<footer>" + researchUseOnly + "</footer>\n</body></html>\n";
-}
-
-std::string number(double value, int significant) {
-  if (!std::isfinite(value)) return "not available";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*g", significant, value);
-  return text;
-}
-
-Csv::Csv(const std::vector<std::string>& header) : columns_(header.size()) {
-  row(header);
-}
-
-void Csv::row(const std::vector<std::string>& cells) {
-  if (cells.size() != columns_)
-    throw BadArgument("Csv: a row has " + std::to_string(cells.size()) + " cells, not " + std::to_string(columns_));
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i) text_ += ',';
-    if (cells[i].find_first_of(",\"\n") == std::string::npos) {
-      text_ += cells[i];
-      continue;
-    }
-    text_ += '"';
-    for (const char c : cells[i]) text_ += c == '"' ? std::string("\"\"") : std::string(1, c);
-    text_ += '"';
-  }
-  text_ += '\n';
+std::string html(const Page& page) {
+  const std::string title = xmlEscaped(page.title());
+  std::string out = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title +
+                    "</title><style>" + style + "</style></head>\n<body>\n<h1>" + title + "</h1>\n";
+  for (const Block& block : page.blocks()) std::visit(Writer{out}, block);
+  return out + "<footer>" + researchUseOnly + "</footer>\n</body></html>\n";
 }
 
 }  // namespace glisson::report

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "render/picture.h"
-#include "report/html.h"
+#include "report/text.h"
 
 namespace glisson::study {
 namespace {

@@ -23,7 +23,7 @@ MAY = {
     "retraction": ["base", "image", "elastography", "anatomy", "mechanics"],
     "comparison": ["base", "image", "anatomy", "mechanics", "retraction"],
     "render": ["base", "image", "roi", "elastography", "anatomy", "comparison"],
-    "report": ["base"],
+    "report": ["base", "render"],
     "exchange": ["base", "image", "dicom", "roi", "elastography", "anatomy", "mechanics", "retraction", "comparison"],
     "phantom": ["base", "image", "dicom", "roi", "elastography", "anatomy"],
     "pipeline": ["base", "image", "dicom", "roi", "elastography", "inversion", "anatomy", "mechanics", "retraction", "comparison",
@@ -33,7 +33,7 @@ MAY = {
     "live": ["base", "retraction"],
     "cohort": ["base", "image", "dicom", "pipeline", "render", "report"],
 }
-THIRD_PARTY = re.compile(r"^(vtk|itk|dcmtk/|CGAL/|Q[A-Z]|nlohmann/|tbb/|CLI/|cholmod|openssl/|igtl)")
+THIRD_PARTY = re.compile(r"^(vtk|itk|dcmtk/|CGAL/|Q[A-Z]|nlohmann/|tbb/|CLI/|cholmod|openssl/|igtl|cairo|ft2build)")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <string>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "pipeline/pictures.h"
 #include "render/colour_map.h"
-#include "session/atomic_file.h"
 
 namespace glisson::session {
 
@@ -79,7 +79,7 @@ std::vector<std::filesystem::path> exportResults(const pipeline::RunResult& resu
     writeAtomically(files.back(), render::svg(plot));
   }
   for (const auto& file : result.files)
-    if (file.filename() == "report.html" || file.filename() == "run.json") {
+    if (file.stem() == "report" || file.filename() == "run.json") {
       std::filesystem::copy_file(file, folder / file.filename(), std::filesystem::copy_options::overwrite_existing,
                                  failed);
       if (failed) throw BadInput("cannot copy " + file.filename().string() + " into the folder: " + failed.message());

@@ -1,0 +1,29 @@
+#include "report/page.h"
+
+#include <fstream>
+
+#include "base/error.h"
+
+namespace glisson::report {
+
+void Page::table(const std::vector<std::pair<std::string, std::string>>& rows) {
+  Table t;
+  for (const auto& [what, value] : rows) t.rows.push_back({what, value});
+  blocks_.emplace_back(std::move(t));
+}
+
+void Page::table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
+  for (const auto& row : rows)
+    if (row.size() != header.size())
+      throw BadArgument("report::Page: a row has " + std::to_string(row.size()) + " cells, not " +
+                        std::to_string(header.size()));
+  blocks_.emplace_back(Table{header, rows});
+}
+
+void Page::picture(const std::filesystem::path& png, const std::string& caption) {
+  if (!std::ifstream(png, std::ios::binary))
+    throw BadInput("the report cannot read the picture '" + png.filename().string() + "'");
+  blocks_.emplace_back(Figure{.png = png, .caption = caption});
+}
+
+}  // namespace glisson::report
