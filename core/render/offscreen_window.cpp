@@ -154,6 +154,7 @@ struct OffscreenWindow::Content {
   vtkNew<vtkCallbackCommand> observer;
 
   void watch(vtkObject* object) {
+    if (object->HasObserver(vtkCommand::ErrorEvent, observer)) return;
     object->AddObserver(vtkCommand::ErrorEvent, observer);
     object->AddObserver(vtkCommand::WarningEvent, observer);
   }
@@ -188,7 +189,14 @@ vtkRenderWindow* OffscreenWindow::window() {
   return content_->window;
 }
 
+void OffscreenWindow::setSize(int width, int height, int samples) {
+  content_->egl->makeCurrent();
+  content_->window->SetSize(width, height);
+  content_->window->SetMultiSamples(samples);
+}
+
 Picture OffscreenWindow::capture() {
+  content_->egl->makeCurrent();
   EglRenderWindow* w = content_->window;
   vtkRendererCollection* renderers = w->GetRenderers();
   renderers->InitTraversal();

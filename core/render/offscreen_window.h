@@ -11,6 +11,7 @@ namespace glisson::render {
 
 /// An OpenGL window that is never shown: an EGL context without a surface on any screen, so it works with no X server
 /// and no DISPLAY. VTK's own default window is never made: it ends the process where there is no display.
+/// Made, used and ended on one thread.
 class OffscreenWindow {
  public:
   /// Throws RenderUnavailable where no context can be had, naming what was tried.
@@ -20,6 +21,9 @@ class OffscreenWindow {
   OffscreenWindow& operator=(const OffscreenWindow&) = delete;
 
   vtkRenderWindow* window();
+
+  /// For the next picture. samples: per pixel against stairs at edges; 0 = none.
+  void setSize(int width, int height, int samples);
 
   /// Renders and reads the pixels. Throws Error where VTK reports a fault while drawing.
   Picture capture();

@@ -280,7 +280,7 @@ class Journey : public QObject {
     QVERIFY(std::abs(live->frame().vesselMean_mm - run.vesselMean_mm) < 1e-3 * std::max(run.vesselMean_mm, 1.0));
     QVERIFY(rendered.wait(wait_ms));
     // The mouse takes the tool where it is seen; twelve pixels up, the contact follows.
-    auto* canvas = view->findChild<QWidget*>("vtkWidget");
+    auto* canvas = static_cast<QWidget*>(view);
     const auto seen = view->toolPixel();
     QVERIFY(seen.has_value());
     const QPoint at = seen->toPoint();

@@ -1,56 +1,110 @@
 #include "views/scene_view.h"
 
 #include <vtkCamera.h>
-#include <vtkLight.h>
-#include <vtkLightCollection.h>
+#include <vtkLightKit.h>
+#include <vtkNew.h>
 #include <vtkPropCollection.h>
 #include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 
-#include <QLabel>
-#include <QMouseEvent>
-#include <QStackedLayout>
+#include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "views/live_layer.h"
-#include "views/vtk_widget.h"
+#include "views/model_layer.h"
 
 namespace glisson::views {
 
-SceneView::SceneView(QWidget* parent) : QWidget(parent), hint_(new QLabel(this)), layout_(new QStackedLayout(this)) {
-  layout_->setContentsMargins(0, 0, 0, 0);
-  hint_->setAlignment(Qt::AlignCenter);
-  hint_->setWordWrap(true);
-  hint_->setObjectName(QStringLiteral("viewHint"));
-  layout_->addWidget(hint_);
+namespace {
+
+enum Key { composed, movedLive, shownParts };
+constexpr int settle_ms = 140;
+
+/// What moves live is no fraction of the run.
+void dropFraction(vtkRenderer& renderer) {
+  std::vector<vtkProp*> gone;
+  vtkCollectionSimpleIterator at;
+  renderer.GetViewProps()->InitTraversal(at);
+  while (vtkProp* prop = renderer.GetViewProps()->GetNextProp(at))
+    if (auto* text = vtkTextActor::SafeDownCast(prop); text && text->GetInput())
+      if (std::string_view(text->GetInput()).starts_with("0 % of")) gone.push_back(prop);
+  for (vtkProp* prop : gone) renderer.RemoveViewProp(prop);
 }
+
+Eigen::Vector2d asVector(const QPointF& p) {
+  return {p.x(), p.y()};
+}
+
+}  // namespace
+
+SceneView::SceneView(QWidget* parent) : QWidget(parent) {
+  setFocusPolicy(Qt::StrongFocus);
+  setMouseTracking(true);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  settle_.setSingleShot(true);
+  settle_.setInterval(settle_ms);
+  connect(&settle_, &QTimer::timeout, this, [this] { draw(false); });
+  connect(&painter_, &ScenePainter::painted, this, &SceneView::take);
+  connect(&painter_, &ScenePainter::failed, this, [this](const QString& reason) {
+    hint_ = reason;
+    image_ = {};
+    update();
+  });
+}
+
+SceneView::~SceneView() = default;
 
 void SceneView::setHint(const QString& hint) {
-  hint_->setText(hint);
+  hint_ = hint;
+  update();
 }
 
-// An OpenGL widget makes the whole window be put together by OpenGL, which costs every repaint of the images tens of
-// milliseconds where a program draws for the graphics card: it comes only with the first scene.
-void SceneView::makeWidget() {
-  if (widget_) return;
-  widget_ = new VtkWidget(this);
-  widget_->setObjectName(QStringLiteral("vtkWidget"));
-  widget_->renderer()->SetBackground(0.063, 0.071, 0.086);
-  connect(widget_, &VtkWidget::rendered, this, &SceneView::rendered);
-  widget_->installEventFilter(this);
-  layout_->addWidget(widget_);
+void SceneView::setCaption(const QString& caption) {
+  caption_ = caption;
+  update();
 }
 
 void SceneView::setScene(std::shared_ptr<const render::RetractionScene> scene) {
-  if (scene) makeWidget();
   scene_ = std::move(scene);
-  layer_.reset();
-  grip_.reset();
-  layout_->setCurrentWidget(scene_ ? static_cast<QWidget*>(widget_) : hint_);
-  populate(false);
+  model_.reset();
+  painter_.retire(std::exchange(layer_, nullptr));
+  painter_.retire(std::exchange(modelLayer_, nullptr));
+  atRest_.reset();
+  drag_ = Drag::None;
+  image_ = {};
+  update();
+  compose(false);
+}
+
+void SceneView::setModel(std::shared_ptr<const tools::ModelPicture> model) {
+  const bool again = model_ && model;
+  scene_.reset();
+  atRest_.reset();
+  painter_.retire(std::exchange(layer_, nullptr));
+  model_ = std::move(model);
+  if (!model_) {
+    painter_.retire(std::exchange(modelLayer_, nullptr));
+    image_ = {};
+    update();
+    return;
+  }
+  if (!again) {
+    image_ = {};
+    Eigen::AlignedBox3d box;
+    for (Eigen::Index n = 0; n < model_->liver.vertices_lps_mm.cols(); ++n)
+      box.extend(Eigen::Vector3d(model_->liver.vertices_lps_mm.col(n)));
+    box.extend(box.center() + 0.62 * (box.max() - box.center()) + Eigen::Vector3d(0, 0, 1));
+    // From the front, a little from the right and below: where the bar lies.
+    camera_ = {};
+    camera_.fromEye = Eigen::Vector3d(0.45, 0.87, 0.20).normalized();
+    camera_.up = (Eigen::Vector3d::UnitZ() - camera_.fromEye.z() * camera_.fromEye).normalized();
+    camera_.fit(box, size_px());
+    cameraKnown_ = true;
+  }
+  composeModel();
 }
 
 void SceneView::clear() {
@@ -60,160 +114,161 @@ void SceneView::clear() {
 void SceneView::setFraction(double t) {
   if (options_.t == t) return;
   options_.t = t;
-  populate(true);
+  compose(true);
 }
 
 void SceneView::setPalette3D(render::Palette palette) {
   options_.palette = palette;
-  if (layer_) layer_->setPalette(palette);
-  populate(true);
+  compose(true);
 }
 
 void SceneView::setView(render::View3D view) {
   options_.view = view;
-  populate(false);
+  compose(false);
+}
+
+void SceneView::setParts(const ModelParts& parts) {
+  if (parts_ == parts) return;
+  parts_ = parts;
+  if (!modelLayer_) return;
+  painter_.change(shownParts, [layer = modelLayer_, parts](vtkRenderer&) {
+    if (*layer) (*layer)->show(parts);
+  });
+  draw(false);
+  update();
+}
+
+void SceneView::setMarks(std::vector<Mark> marks) {
+  marks_ = std::move(marks);
+  update();
+}
+
+void SceneView::setPlacing(bool on) {
+  placing_ = on;
+  on ? setCursor(Qt::CrossCursor) : unsetCursor();
 }
 
 void SceneView::showEvent(QShowEvent*) {
-  if (stale_) populate(true);
+  draw(false);
 }
 
 // Legend, scale and texts are laid out for the size of the view.
 void SceneView::resizeEvent(QResizeEvent*) {
-  populate(true);
+  model_ ? draw(false) : compose(true);
 }
 
-void SceneView::populate(bool keepCamera) {
-  if (!keepCamera) newCamera_ = true;
-  stale_ = scene_ != nullptr;
-  if (!scene_ || !isVisible() || making_) return;
-  stale_ = false;
-  making_ = true;
-  options_.width = std::max(qRound(width() * devicePixelRatioF()), 64);
-  options_.height = std::max(qRound(height() * devicePixelRatioF()), 64);
-  // Into a renderer of its own, without a window: no OpenGL and no text is touched until it is shown.
-  auto drawn = layer_ ? atRest_ : scene_;
+void SceneView::compose(bool keepCamera) {
+  if (!scene_) return;
+  if (!keepCamera) cameraKnown_ = false;
   auto options = options_;
+  options.width = std::max(qRound(width() * devicePixelRatioF()), 64);
+  options.height = std::max(qRound(height() * devicePixelRatioF()), 64);
   if (layer_) options.t = 0.0;
-  thread_ = std::jthread([this, scene = drawn, options] {
-    auto made = vtkSmartPointer<vtkRenderer>::New();
-    QString failure;
-    try {
-      render::populate3D(made, *scene, options);
-    } catch (const std::exception& e) {
-      failure = QString::fromUtf8(e.what());
-    }
-    QMetaObject::invokeMethod(
-        this,
-        [this, made, failure, scene] {
-          making_ = false;
-          if (!failure.isEmpty()) {
-            hint_->setText(failure);
-            layout_->setCurrentWidget(hint_);
-          } else if (scene == (layer_ ? atRest_ : scene_)) {
-            take(made);
-          }
-          if (stale_) populate(true);
-        },
-        Qt::QueuedConnection);
-  });
+  painter_.change(composed,
+                  [scene = layer_ ? atRest_ : scene_, whole = scene_, layer = layer_, options](vtkRenderer& renderer) {
+                    render::populate3D(&renderer, *scene, options);
+                    if (!layer) return;
+                    dropFraction(renderer);
+                    if (!*layer) *layer = std::make_unique<LiveLayer>(*whole, options.palette);
+                    (*layer)->setPalette(options.palette);
+                    (*layer)->addTo(&renderer);
+                  });
+  draw(false);
 }
 
-void SceneView::take(vtkRenderer* made) {
-  vtkRenderer* shown = widget_->renderer();
-  shown->RemoveAllViewProps();
-  shown->RemoveAllLights();
-  vtkCollectionSimpleIterator at;
-  made->GetViewProps()->InitTraversal(at);
-  while (vtkProp* prop = made->GetViewProps()->GetNextProp(at)) {
-    // What moves live is no fraction of the run.
-    const auto* text = vtkTextActor::SafeDownCast(prop);
-    if (layer_ && text && QString::fromUtf8(const_cast<vtkTextActor*>(text)->GetInput()).startsWith(u"0 % of"))
-      continue;
-    shown->AddViewProp(prop);
-  }
-  if (layer_) layer_->addTo(shown);
-  made->GetLights()->InitTraversal(at);
-  while (vtkLight* light = made->GetLights()->GetNextLight(at)) shown->AddLight(light);
-  shown->SetBackground(made->GetBackground());
-  shown->SetBackground2(made->GetBackground2());
-  shown->SetGradientBackground(made->GetGradientBackground());
-  if (std::exchange(newCamera_, false)) shown->GetActiveCamera()->DeepCopy(made->GetActiveCamera());
-  shown->ResetCameraClippingRange();
-  widget_->update();
+void SceneView::composeModel() {
+  painter_.retire(std::exchange(modelLayer_, std::make_shared<std::unique_ptr<ModelLayer>>()));
+  painter_.change(composed, [model = model_, layer = modelLayer_, parts = parts_,
+                             ratio = devicePixelRatioF()](vtkRenderer& renderer) {
+    renderer.RemoveAllViewProps();
+    renderer.RemoveAllLights();
+    renderer.SetBackground(0.055, 0.062, 0.075);
+    renderer.SetBackground2(0.13, 0.145, 0.17);
+    renderer.GradientBackgroundOn();
+    vtkNew<vtkLightKit> lights;
+    lights->SetKeyLightIntensity(0.85);
+    lights->AddLightsToRenderer(&renderer);
+    *layer = std::make_unique<ModelLayer>(*model, ratio);
+    (*layer)->show(parts);
+    (*layer)->addTo(renderer);
+  });
+  draw(false);
+}
+
+Eigen::Vector2d SceneView::size_px() const {
+  return {std::max(width(), 1), std::max(height(), 1)};
+}
+
+void SceneView::draw(bool hurried) {
+  if (!hasPicture() || !isVisible()) return;
+  ScenePainter::Wish wish;
+  if (cameraKnown_) wish.camera = camera_;
+  wish.width = std::max(qRound(width() * devicePixelRatioF()), 64);
+  wish.height = std::max(qRound(height() * devicePixelRatioF()), 64);
+  wish.hurried = hurried;
+  painter_.paint(wish);
+  hurried ? settle_.start() : settle_.stop();
+}
+
+void SceneView::moved() {
+  draw(true);
+}
+
+void SceneView::take(const ScenePainter::Frame& frame) {
+  if (!hasPicture()) return;
+  image_ = frame.image;
+  shownCamera_ = frame.camera;
+  if (!std::exchange(cameraKnown_, true)) camera_ = frame.camera;
+  update();
+  emit rendered();
 }
 
 void SceneView::setLive(bool live) {
   if (live == isLive() || !scene_) return;
-  grip_.reset();
+  drag_ = Drag::None;
   if (live) {
     auto rest = std::make_shared<render::RetractionScene>(*scene_);
     rest->vesselSurface = {};
     rest->retractorPoint_lps_mm.reset();
     atRest_ = std::move(rest);
-    layer_ = std::make_unique<LiveLayer>(*scene_, options_.palette);
+    layer_ = std::make_shared<std::unique_ptr<LiveLayer>>();
+    toolMoved_mm_.setZero();
   } else {
-    layer_.reset();
+    painter_.retire(std::exchange(layer_, nullptr));
     atRest_.reset();
   }
-  populate(true);
+  compose(true);
 }
 
 void SceneView::moveLive(const Eigen::Matrix3Xd& mre_mm, const Eigen::Matrix3Xd& atlas_mm,
                          const Eigen::Vector3d& tool_mm) {
   if (!layer_) return;
-  layer_->move(mre_mm, atlas_mm, tool_mm);
   toolMoved_mm_ = tool_mm;
-  widget_->renderer()->ResetCameraClippingRange();
-  widget_->update();
+  painter_.change(movedLive, [layer = layer_, mre_mm, atlas_mm, tool_mm](vtkRenderer&) {
+    if (*layer) (*layer)->move(mre_mm, atlas_mm, tool_mm);
+  });
+  draw(true);
 }
 
-Eigen::Vector3d SceneView::seenAt(const Eigen::Vector3d& p_lps) const {
-  vtkRenderer* renderer = widget_->renderer();
-  renderer->SetWorldPoint(p_lps.x(), p_lps.y(), p_lps.z(), 1.0);
-  renderer->WorldToDisplay();
-  return Eigen::Map<const Eigen::Vector3d>(renderer->GetDisplayPoint());
+QPointF SceneView::pixelOf(const Eigen::Vector3d& p_lps) const {
+  const Eigen::Vector2d px = camera_.toPixel(p_lps, size_px());
+  return {px.x(), px.y()};
 }
 
 std::optional<QPointF> SceneView::toolPixel() const {
-  if (!layer_ || !scene_->retractorPoint_lps_mm) return {};
-  const Eigen::Vector3d seen = seenAt(layer_->tool_lps()) / devicePixelRatioF();
-  return QPointF(seen.x(), widget_->height() - 1.0 - seen.y());
+  if (!layer_ || !scene_->retractorPoint_lps_mm || !cameraKnown_) return {};
+  return pixelOf(*scene_->retractorPoint_lps_mm + toolMoved_mm_);
 }
 
-// The tool is taken by the mouse where the bar's contact is; anywhere else the mouse turns the camera.
-bool SceneView::eventFilter(QObject* watched, QEvent* event) {
-  constexpr double reach_px = 30.0;
-  if (!layer_ || watched != widget_) return QWidget::eventFilter(watched, event);
-  if (event->type() == QEvent::MouseButtonPress) {
-    const auto* mouse = static_cast<QMouseEvent*>(event);
-    const auto tool = toolPixel();
-    if (mouse->button() != Qt::LeftButton || !tool) return false;
-    const QPointF off = mouse->position() - *tool;
-    if (std::hypot(off.x(), off.y()) > reach_px) return false;
-    grip_ = Grip{mouse->position(), seenAt(layer_->tool_lps()), layer_->tool_lps(), toolMoved_mm_};
-    widget_->setCursor(Qt::ClosedHandCursor);
-    return true;
-  }
-  if (event->type() == QEvent::MouseMove && grip_) {
-    const QPointF d = (static_cast<QMouseEvent*>(event)->position() - grip_->mouse) * devicePixelRatioF();
-    vtkRenderer* renderer = widget_->renderer();
-    renderer->SetDisplayPoint(grip_->tool_px.x() + d.x(), grip_->tool_px.y() - d.y(), grip_->tool_px.z());
-    renderer->DisplayToWorld();
-    const Eigen::Vector4d at = Eigen::Map<const Eigen::Vector4d>(renderer->GetWorldPoint());
-    if (at.w() != 0.0) emit toolDragged(grip_->moved_mm + at.head<3>() / at.w() - grip_->tool_lps);
-    return true;
-  }
-  if (event->type() == QEvent::MouseButtonRelease && grip_) {
-    grip_.reset();
-    widget_->unsetCursor();
-    return true;
-  }
-  return false;
+const anatomy::TriangleMesh* SceneView::surface() const {
+  return scene_ ? &scene_->liverSurface : model_ ? &model_->liver : nullptr;
 }
 
-SceneView::~SceneView() {
-  if (thread_.joinable()) thread_.join();
+std::optional<Eigen::Vector3d> SceneView::surfaceUnder(const QPointF& at) const {
+  const anatomy::TriangleMesh* mesh = surface();
+  if (!mesh || !cameraKnown_) return {};
+  const Eigen::Vector3d eye = camera_.focus_lps - camera_.distance_mm * camera_.fromEye;
+  return tools::firstHit(*mesh, camera_.toLps(asVector(at), size_px(), eye), camera_.fromEye);
 }
 
 }  // namespace glisson::views
