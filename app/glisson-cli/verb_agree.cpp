@@ -101,6 +101,7 @@ void addAgree(CLI::App& app, Context& context) {
   verb->add_option("--unit", a->unit, "unit of a bare map: Pa, kPa or <factor>kPa");
   verb->add_option("--label", a->request.label, "label of masks, 0 = any");
   verb->add_option("--name", a->request.name, "structure of RT Structure Sets");
+  verb->add_flag("--override", a->request.overrideChecks, "compare outlines of other days or patients nevertheless");
   verb->add_flag("--outlines", a->request.outlines, "distances in each slice, for few and thick slices");
   verb->callback([&context, a] { context.action = [&context, a] { return agree(*a, context); }; });
 }

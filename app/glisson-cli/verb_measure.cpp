@@ -67,13 +67,16 @@ int measure(const Arguments& a, const Context& context) {
   std::optional<elastography::Registration> registration;
   std::vector<std::string> together;
   std::vector<std::vector<std::string>> rolesNotFound = {mre.rolesNotFound};
+  std::optional<pipeline::AnatomicalImage> mri;
   if (!a.mri.empty()) {
-    const pipeline::AnatomicalImage mri = pipeline::loadImage(a.mri, progress.part(0.8, 0.9), meaning.roles);
-    mriGrid = mri.volume.grid;
-    if (a.registration) registration = pipeline::fitToMri(mre, a.mre, a.magnitude, mri.volume, progress.part(0.9, 1.0));
-    together = pipeline::checkTogether(mri, mre, a.overrideChecks);
-    rolesNotFound.push_back(mri.rolesNotFound);
+    mri = pipeline::loadImage(a.mri, progress.part(0.8, 0.9), meaning.roles);
+    mriGrid = mri->volume.grid;
+    together = pipeline::checkTogether(*mri, mre, a.overrideChecks);
+    rolesNotFound.push_back(mri->rolesNotFound);
   }
+  const auto said = pipeline::checkRoi(roi, mri ? &*mri : nullptr, &mre, a.overrideChecks);
+  together.insert(together.end(), said.begin(), said.end());
+  if (a.registration) registration = pipeline::fitToMri(mre, a.mre, a.magnitude, mri->volume, progress.part(0.9, 1.0));
   pipeline::checkRolesFound(meaning.roles, rolesNotFound);
   const elastography::MappedRoi mapped = pipeline::mapRoi(roi, mriGrid, mre.map);
 
@@ -138,13 +141,14 @@ void addMeasure(CLI::App& app, Context& context) {
   auto a = std::make_shared<Arguments>();
   verb->add_option("--mre", a->mre, "elastogram: DICOM folder, DICOMDIR or ZIP archive, or a stiffness map")
       ->required();
-  verb->add_option("--roi", a->roi, "region of interest: contour JSON, RT Structure Set or mask")->required();
+  verb->add_option("--roi", a->roi, "region of interest: contour JSON, RT Structure Set, Segmentation, mask or closed surface")->required();
   verb->add_option("--mri", a->mri,
                    "image that the contours were drawn on, where its slices differ from the elastogram's");
   verb->add_option("--quantity", a->quantity, "what a bare map holds")->check(CLI::IsMember({"shear", "youngs"}));
   verb->add_option("--unit", a->unit, "unit of a bare map: Pa, kPa or <factor>kPa");
   verb->add_option("--role", a->roles, "series=role, set by hand: UID or number, and stiffness, confidence ...");
-  verb->add_flag("--override", a->overrideChecks, "take MRI and elastogram of other days or patients nevertheless");
+  verb->add_flag("--override", a->overrideChecks,
+                 "take MRI, elastogram and region of other days or patients nevertheless");
   verb->add_option("--label", a->label, "label of a mask, 0 = any");
   verb->add_option("--name", a->name, "structure of an RT Structure Set");
   verb->add_option("--confidence", a->confidence, "voxels below are left out, 0 to 1")->check(CLI::Range(0.0, 1.0));

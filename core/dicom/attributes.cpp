@@ -12,6 +12,7 @@
 #include <mutex>
 
 #include "base/error.h"
+#include "base/sha256.h"
 
 namespace glisson::dicom {
 namespace {
@@ -104,6 +105,20 @@ std::string unifiedText(DcmItem& item, const DcmTagKey& tag) {
       characters.convertString(raw.c_str(), raw.size(), unified, tag == DCM_PatientName ? "\\^=" : "\\").bad())
     return raw;
   return trimmed(std::string(unified.c_str(), unified.size()));
+}
+
+Origin originOf(DcmItem& item) {
+  Origin origin;
+  std::string name = unifiedText(item, DCM_PatientName);
+  while (!name.empty() && (name.back() == '^' || name.back() == ' ')) name.pop_back();
+  const std::string id = unifiedText(item, DCM_PatientID);
+  if (!id.empty() || !name.empty()) {
+    const std::string identity = id + '\0' + name;
+    origin.patientKey = sha256(identity.data(), identity.size());
+  }
+  origin.studyUid = shownText(item, DCM_StudyInstanceUID);
+  origin.studyDate = shownText(item, DCM_StudyDate).substr(0, 16);
+  return origin;
 }
 
 std::string nameOf(const DcmTagKey& key) {

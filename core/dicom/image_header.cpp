@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "base/sha256.h"
 #include "dicom/detail/attributes.h"
 
 #include <dcmtk/config/osconfig.h>
@@ -156,15 +155,16 @@ ImageHeader parsed(const std::filesystem::path& file, const ByteSource& source, 
     if (h.seriesUid.empty()) throw BadInput(nameOf(DCM_SeriesInstanceUID) + " is missing or empty");
     if (h.seriesUid.size() > 64 || h.seriesUid.find_first_not_of("0123456789.") != std::string::npos)
       throw BadInput(nameOf(DCM_SeriesInstanceUID) + " is no valid UID (digits and dots, at most 64)");
-    h.studyUid = shownText(data, DCM_StudyInstanceUID);
+    const Origin origin = originOf(data);
+    h.studyUid = origin.studyUid;
+    h.studyDate = origin.studyDate;
+    h.patientKey = origin.patientKey;
     h.frameOfReferenceUid = shownText(data, DCM_FrameOfReferenceUID);
     h.sopInstanceUid = text(data, DCM_SOPInstanceUID);
     if (h.sopInstanceUid.size() > 64 || h.sopInstanceUid.find_first_not_of("0123456789.") != std::string::npos) {
       h.warnings.push_back(nameOf(DCM_SOPInstanceUID) + " is no valid UID");
       h.sopInstanceUid.clear();
     }
-    const std::string identity = unifiedText(data, DCM_PatientID) + '\0' + unifiedText(data, DCM_PatientName);
-    h.patientKey = sha256(identity.data(), identity.size());
     h.description = shownText(data, DCM_SeriesDescription);
     h.imageType = shownText(data, DCM_ImageType);
     h.manufacturer = shownText(data, DCM_Manufacturer);
@@ -173,7 +173,6 @@ ImageHeader parsed(const std::filesystem::path& file, const ByteSource& source, 
     h.lossy =
         text(data, DCM_LossyImageCompression) == "01" || isLossy(h.layout.transferSyntax) || hasLossyWavelet(h, source);
     h.burnedIn = saysBurnedIn(data, h.sopClassUid);
-    h.studyDate = shownText(data, DCM_StudyDate).substr(0, 16);
     h.step = elastographyStep(text(data, DCM_ImageComments));
     if (h.lossy) h.warnings.push_back("was compressed with loss: its values are not the measured ones");
     try {

@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "dicom/detail/header_wire.h"
+#include "dicom/detail/parsed_objects.h"
 #include "dicom/detail/reader_protocol.h"
 #include "dicom/detail/wire.h"
 #include "dicom/series.h"
@@ -269,7 +270,7 @@ std::string IsolatedFile::ask(std::uint32_t request, const std::string& payload,
       const auto [reason, seriesUid] = refusalIn(answer);
       // Memory that other files left in use is not this one's fault.
       if (!(used && attempt == 0 && reason.starts_with("asks for more memory") &&
-            static_cast<Ask>(request) == Ask::Open))
+            static_cast<Ask>(request) != Ask::Frame))
         refuse(detail::shownFrom(reason), seriesUid);
     }
     process_.reset();
@@ -315,6 +316,30 @@ std::vector<std::uint8_t> IsolatedFile::frame(int number, std::uint64_t frameByt
   return {answer.begin(), answer.end()};
 }
 
+StructureSet IsolatedFile::structures() {
+  const std::string answer =
+      ask(static_cast<std::uint32_t>(Ask::Structures), openPayload(file_, limitsFor(fileBytes_, 8 * fileBytes_)),
+          8 * fileBytes_, memoryBudget(fileBytes_));
+  try {
+    return detail::structuresFrom(answer);
+  } catch (const BadInput& e) {
+    refuse(e.what());
+  }
+}
+
+detail::SegHeader IsolatedFile::segmentation() {
+  const std::string answer =
+      ask(static_cast<std::uint32_t>(Ask::Segmentation), openPayload(file_, limitsFor(fileBytes_, 8 * fileBytes_)),
+          8 * fileBytes_, memoryBudget(fileBytes_));
+  try {
+    detail::SegHeader h = detail::segHeaderFrom(answer);
+    opened_ = true;
+    return h;
+  } catch (const BadInput& e) {
+    refuse(e.what());
+  }
+}
+
 std::vector<std::vector<std::string>> IsolatedFile::directory() {
   const std::string answer =
       ask(static_cast<std::uint32_t>(Ask::Directory), openPayload(file_, limitsFor(fileBytes_, fileBytes_)), fileBytes_,
@@ -357,16 +382,17 @@ void IsolatedFile::unpack(const EntrySink& sink) {
   }
 }
 
+std::optional<FileLayout> plainLayout(ByteSource& source) {
+  if (isDeflated(source)) return {};
+  FileLayout layout = readLayout(source);
+  if (!layout.plain) return {};
+  return layout;
+}
+
 ImageHeader readHeaderSafely(const fs::path& file, std::unique_ptr<IsolatedFile>* keep) {
-  bool plain = false;
   try {
     ByteSource source(file);
-    // Looked at by our own code, which allocates nothing that the file asks for.
-    if (!isDeflated(source)) {
-      const FileLayout layout = readLayout(source);
-      plain = layout.plain;
-      if (plain) return readImageHeader(file, source, layout);
-    }
+    if (const auto layout = plainLayout(source)) return readImageHeader(file, source, *layout);
   } catch (const BadInput& e) {
     refuse(e.what());
   } catch (const std::bad_alloc&) {

@@ -4,12 +4,18 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dicom/image_header.h"
+#include "dicom/rtstruct.h"
 
 namespace glisson::dicom {
+
+namespace detail {
+struct SegHeader;
+}
 
 /// What a reader process may spend on one file. Memory: beyond what the program takes by itself.
 struct ReaderLimits {
@@ -30,8 +36,12 @@ class IsolatedFile {
 
   /// Header of an image, checked again on this side.
   ImageHeader header();
-  /// Stored pixels of one frame, little endian; frameBytes of them. header() must have been asked for before.
+  /// Stored pixels of one frame, little endian; frameBytes of them. Of a Segmentation: one byte a pixel.
+  /// header() or segmentation() must have been asked for before.
   std::vector<std::uint8_t> frame(int number, std::uint64_t frameBytes);
+  /// Contours of a structure set; header of a Segmentation. Checked again on this side.
+  StructureSet structures();
+  detail::SegHeader segmentation();
   /// Paths that a DICOMDIR lists, as parts from its folder on.
   std::vector<std::vector<std::string>> directory();
 
@@ -56,6 +66,10 @@ class IsolatedFile {
   std::unique_ptr<Process> process_;
   bool opened_ = false;
 };
+
+/// The layout of a plain file, which may be parsed here; nothing for others, which are for a reader process. Found by
+/// our own code, which allocates nothing that the file asks for. Throws BadInput as readLayout does.
+std::optional<FileLayout> plainLayout(ByteSource& source);
 
 /// Whether the header of a plain file can be parsed here, and what it says; others go through a reader process.
 /// Throws RefusedFile.

@@ -13,6 +13,8 @@
 #include "base/error.h"
 #include "dicom/archive.h"
 #include "dicom/detail/header_wire.h"
+#include "dicom/detail/packed_frames.h"
+#include "dicom/detail/parsed_objects.h"
 #include "dicom/detail/reader_protocol.h"
 #include "dicom/detail/wire.h"
 #include "dicom/directory.h"
@@ -117,9 +119,12 @@ class Service {
     w(path);
     w(memory_MiB);
     w(cpu_s);
+    frame_ = {};
     frames_.reset();
+    packed_.reset();
     source_.reset();
     header_ = {};
+    frameCount_ = 0;
     limit(RLIMIT_AS, baseline_bytes_ + (static_cast<std::uint64_t>(memory_MiB) << 20));
     allowTime(cpu_s);
     source_ = std::make_unique<ByteSource>(path);
@@ -127,7 +132,18 @@ class Service {
     switch (ask) {
       case Ask::Open:
         header_ = readImageHeader(path, *source_);
+        frameCount_ = header_.frames.size();
+        frame_ = [this](int number) {
+          if (!frames_) frames_ = std::make_unique<StoredFrames>(header_, *source_);
+          return frames_->read(number);
+        };
         return say(Answer::Header, detail::toMessage(header_));
+      case Ask::Structures: {
+        const FileLayout layout = readLayout(*source_);
+        return say(Answer::Structures, detail::toMessage(detail::parseStructures(*source_, layout)));
+      }
+      case Ask::Segmentation:
+        return segmentation();
       case Ask::Directory: {
         WireWriter list;
         list(readDirectory(*source_));
@@ -141,11 +157,18 @@ class Service {
   }
 
   bool frame(int number) {
-    if (!source_ || header_.frames.empty() || number < 0 || static_cast<std::size_t>(number) >= header_.frames.size())
-      throw BadInput("has no such frame");
-    if (!frames_) frames_ = std::make_unique<StoredFrames>(header_, *source_);
-    const std::vector<std::uint8_t> bytes = frames_->read(number);
+    if (!frame_ || number < 0 || static_cast<std::size_t>(number) >= frameCount_) throw BadInput("has no such frame");
+    const std::vector<std::uint8_t> bytes = frame_(number);
     return detail::sendMessage(socket_, static_cast<std::uint32_t>(Answer::Pixels), bytes.data(), bytes.size());
+  }
+
+  bool segmentation() {
+    layout_ = readLayout(*source_);
+    const detail::SegHeader h = detail::parseSegHeader(*source_, layout_);
+    packed_ = std::make_unique<PackedFrames>(*source_, layout_, h.frames.size(), h.pixels(), h.bits);
+    frameCount_ = h.frames.size();
+    frame_ = [this](int number) { return packed_->frame(static_cast<std::size_t>(number)); };
+    return say(Answer::Segmentation, detail::toMessage(h));
   }
 
   bool unpack() {
@@ -181,6 +204,10 @@ class Service {
   std::unique_ptr<ByteSource> source_;
   ImageHeader header_;
   std::unique_ptr<StoredFrames> frames_;
+  FileLayout layout_;
+  std::unique_ptr<PackedFrames> packed_;
+  std::size_t frameCount_ = 0;
+  std::function<std::vector<std::uint8_t>(int)> frame_;  ///< of the opened file
 };
 
 }  // namespace

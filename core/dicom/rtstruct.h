@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dicom/origin.h"
 #include "dicom/series.h"
 
 namespace glisson::dicom {
@@ -22,6 +23,7 @@ struct Structure {
 };
 
 struct StructureSet {
+  Origin origin;  ///< study: the one that it was drawn on
   std::string frameOfReferenceUid;
   std::string referencedSeriesUid;
   std::vector<Structure> structures;
@@ -29,6 +31,7 @@ struct StructureSet {
 };
 
 /// Reads an RT Structure Set (CLOSED_PLANAR and CLOSEDPLANAR_XOR contours; other types are listed in warnings).
+/// A plain file is parsed here, all others in a process of their own with limits, as images are.
 /// Throws BadInput (no RTSTRUCT, coordinates not finite or not a multiple of three ...).
 StructureSet readRtStruct(const std::filesystem::path& file);
 

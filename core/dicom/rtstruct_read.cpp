@@ -4,6 +4,8 @@
 
 #include "base/error.h"
 #include "dicom/detail/attributes.h"
+#include "dicom/detail/parsed_objects.h"
+#include "dicom/reader_process.h"
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
@@ -58,6 +60,9 @@ void readReferences(DcmDataset& data, StructureSet& set, std::set<std::string>& 
   forItems(data, DCM_ReferencedFrameOfReferenceSequence, [&](DcmItem& frame) {
     if (set.frameOfReferenceUid.empty()) set.frameOfReferenceUid = shownText(frame, DCM_FrameOfReferenceUID);
     forItems(frame, DCM_RTReferencedStudySequence, [&](DcmItem& study) {
+      // The examination that it was drawn on, which may be filed in another one.
+      if (const std::string uid = shownText(study, DCM_ReferencedSOPInstanceUID); !uid.empty())
+        set.origin.studyUid = uid;
       forItems(study, DCM_RTReferencedSeriesSequence, [&](DcmItem& series) {
         const std::string uid = shownText(series, DCM_SeriesInstanceUID);
         if (set.referencedSeriesUid.empty())
@@ -96,6 +101,7 @@ StructureSet readData(DcmDataset& data) {
   StructureSet set;
   if (text(data, DCM_SOPClassUID) != UID_RTStructureSetStorage && text(data, DCM_Modality) != "RTSTRUCT")
     throw BadInput("is no RT Structure Set (modality '" + shownText(data, DCM_Modality) + "')");
+  set.origin = originOf(data);
   std::set<std::string> listed;
   readReferences(data, set, listed);
   std::map<int, std::size_t> byNumber;
@@ -148,16 +154,26 @@ StructureSet readData(DcmDataset& data) {
 
 }  // namespace
 
+namespace detail {
+
+StructureSet parseStructures(const ByteSource& source, const FileLayout& layout) {
+  DcmDataset data;
+  parseHeader(source, layout, data);
+  StructureSet set = readData(data);
+  for (const std::string& w : layout.warnings) set.warnings.push_back(w);
+  return set;
+}
+
+}  // namespace detail
+
 StructureSet readRtStruct(const std::filesystem::path& file) {
   const std::string which = "'" + file.filename().string() + "' ";
   try {
     ByteSource source(file);
-    const FileLayout layout = readLayout(source);
-    DcmDataset data;
-    parseHeader(source, layout, data);
-    StructureSet set = readData(data);
-    for (const std::string& w : layout.warnings) set.warnings.push_back(w);
-    return set;
+    if (const auto layout = plainLayout(source)) return detail::parseStructures(source, *layout);
+    return IsolatedFile(file).structures();
+  } catch (const RefusedFile& e) {
+    throw BadInput(which + e.reason);
   } catch (const BadInput& e) {
     throw BadInput(which + e.what());
   } catch (const std::bad_alloc&) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dicom/origin.h"
 #include "dicom/series.h"
 #include "image/volume.h"
 
@@ -20,6 +21,7 @@ struct Segment {
 
 /// A Segmentation as read. Segments may overlap: each has a mask of its own.
 struct SegmentationSet {
+  Origin origin;
   std::string frameOfReferenceUid;
   std::string referencedSeriesUid;                     ///< empty where the object names none
   std::vector<std::string> referencedSopInstanceUids;  ///< of the images that the frames were drawn on
@@ -29,6 +31,7 @@ struct SegmentationSet {
 
 /// Reads BINARY and FRACTIONAL segmentations (a fractional voxel is inside from half the maximum on); native, RLE and
 /// deflated frames. The grid spans all frames; slices between them that no frame covers are empty.
+/// A plain file is parsed here, all others in a process of their own with limits, as images are.
 /// Throws BadInput: no Segmentation, frames that do not lie on one regular grid, a frame of an unknown segment, a
 /// transfer syntax that is not decoded (named), truncated pixels, more voxels than fit the memory budget.
 SegmentationSet readSegmentation(const std::filesystem::path& file);

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
+#include <functional>
 #include <sstream>
 
 #include <dcmtk/config/osconfig.h>
@@ -10,109 +9,20 @@
 #include "base/error.h"
 #include "dicom/detail/attributes.h"
 #include "dicom/detail/packed_frames.h"
+#include "dicom/detail/parsed_objects.h"
+#include "dicom/reader_process.h"
 #include "dicom/seg.h"
 
 namespace glisson::dicom {
 namespace {
 
+using detail::SegFrame;
+using detail::SegHeader;
+
 constexpr double positionTolerance_mm = 0.01;
-constexpr std::size_t maxFrames = 100'000;
-constexpr std::size_t maxSegments = 4096;
-
-struct SegFrame {
-  Eigen::Vector3d position_lps_mm;
-  int segment = 0;
-};
-
-struct Header {
-  int rows = 0, columns = 0, bits = 1;
-  bool fractional = false;
-  int maximum = 1;  ///< of a fractional frame
-  Eigen::Vector3d row, column;
-  double rowSpacing_mm = 0.0, columnSpacing_mm = 0.0;
-  std::optional<double> sliceSpacing_mm, thickness_mm;
-  std::vector<SegFrame> frames;
-};
-
-/// The group of a frame, from its own item or from the shared one.
-DcmItem* groupOf(DcmItem* frame, DcmItem* shared, const DcmTagKey& sequence) {
-  DcmItem* found = frame != nullptr ? itemOf(*frame, sequence) : nullptr;
-  return found == nullptr && shared != nullptr ? itemOf(*shared, sequence) : found;
-}
-
-Eigen::Vector3d vector3(const std::vector<double>& v, std::size_t first = 0) {
-  return {v[first], v[first + 1], v[first + 2]};
-}
-
-std::vector<double> exactly(DcmItem* group, const DcmTagKey& tag, std::size_t count, const std::string& where) {
-  const std::vector<double> v = group != nullptr ? numbers(*group, tag) : std::vector<double>{};
-  if (v.size() != count)
-    throw BadInput("has no usable " + nameOf(tag) + where + " (" + std::to_string(v.size()) + " of " +
-                   std::to_string(count) + " numbers)");
-  return v;
-}
-
-void readGeometry(DcmItem* frame, DcmItem* shared, const std::string& where, bool first, Header& h) {
-  const auto spacing = exactly(groupOf(frame, shared, DCM_PixelMeasuresSequence), DCM_PixelSpacing, 2, where);
-  const auto axes =
-      exactly(groupOf(frame, shared, DCM_PlaneOrientationSequence), DCM_ImageOrientationPatient, 6, where);
-  const Eigen::Vector3d row = vector3(axes), column = vector3(axes, 3);
-  if (!(spacing[0] > 0.0) || !(spacing[1] > 0.0)) throw BadInput("has a pixel spacing that is not positive" + where);
-  if (std::abs(row.norm() - 1.0) > 1e-3 || std::abs(column.norm() - 1.0) > 1e-3 || std::abs(row.dot(column)) > 1e-4)
-    throw BadInput("has an image orientation that is no pair of perpendicular unit vectors" + where);
-  if (first) {
-    h.row = row.normalized();
-    h.column = (column - column.dot(h.row) * h.row).normalized();
-    h.rowSpacing_mm = spacing[0];
-    h.columnSpacing_mm = spacing[1];
-    if (DcmItem* measures = groupOf(frame, shared, DCM_PixelMeasuresSequence)) {
-      h.sliceSpacing_mm = number(*measures, DCM_SpacingBetweenSlices);
-      h.thickness_mm = number(*measures, DCM_SliceThickness);
-    }
-  } else if ((row - h.row).norm() > 1e-3 || (column - h.column).norm() > 1e-3 ||
-             std::abs(spacing[0] - h.rowSpacing_mm) > 1e-4 * h.rowSpacing_mm ||
-             std::abs(spacing[1] - h.columnSpacing_mm) > 1e-4 * h.columnSpacing_mm) {
-    throw BadInput("has frames of different orientation or pixel spacing" + where);
-  }
-}
-
-int wholeNumber(DcmItem& item, const DcmTagKey& tag, double low, double high) {
-  const auto value = number(item, tag);
-  if (!value || *value < low || *value > high || *value != std::floor(*value))
-    throw BadInput("has " + nameOf(tag) + " missing or out of range");
-  return static_cast<int>(*value);
-}
-
-void readFrames(DcmDataset& data, std::size_t count, Header& h, SegmentationSet& set) {
-  DcmItem* shared = itemOf(data, DCM_SharedFunctionalGroupsSequence);
-  DcmSequenceOfItems* perFrame = nullptr;
-  if (data.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, perFrame).bad() || perFrame == nullptr ||
-      perFrame->card() != count)
-    throw BadInput("has no functional group for each of its " + std::to_string(count) + " frames");
-  std::set<std::string> images;
-  std::size_t n = 0;
-  for (DcmObject* o = perFrame->nextInContainer(nullptr); o != nullptr; o = perFrame->nextInContainer(o), ++n) {
-    auto* frame = static_cast<DcmItem*>(o);
-    const std::string where = " (frame " + std::to_string(n + 1) + ")";
-    readGeometry(frame, shared, where, n == 0, h);
-    SegFrame f;
-    f.position_lps_mm =
-        vector3(exactly(groupOf(frame, shared, DCM_PlanePositionSequence), DCM_ImagePositionPatient, 3, where));
-    if (f.position_lps_mm.cwiseAbs().maxCoeff() > 1e5) throw BadInput("lies more than 100 m from the scanner" + where);
-    DcmItem* identification = groupOf(frame, shared, DCM_SegmentIdentificationSequence);
-    if (identification == nullptr) throw BadInput("does not say which segment a frame belongs to" + where);
-    f.segment = wholeNumber(*identification, DCM_ReferencedSegmentNumber, 1, 65535);
-    h.frames.push_back(f);
-    if (DcmItem* derivation = groupOf(frame, shared, DCM_DerivationImageSequence))
-      if (DcmItem* source = itemOf(*derivation, DCM_SourceImageSequence))
-        if (const std::string uid = shownText(*source, DCM_ReferencedSOPInstanceUID);
-            !uid.empty() && images.insert(uid).second)
-          set.referencedSopInstanceUids.push_back(uid);
-  }
-}
 
 /// One lattice for all frames: ordered along the normal, a whole number of steps apart.
-image::Grid latticeOf(const Header& h, std::vector<int>& sliceOfFrame) {
+image::Grid latticeOf(const SegHeader& h, std::vector<int>& sliceOfFrame) {
   const Eigen::Vector3d normal = h.row.cross(h.column);
   std::vector<double> at;
   for (const SegFrame& f : h.frames) at.push_back(normal.dot(f.position_lps_mm));
@@ -161,56 +71,10 @@ image::Grid latticeOf(const Header& h, std::vector<int>& sliceOfFrame) {
   return g;
 }
 
-void readSegments(DcmDataset& data, SegmentationSet& set) {
-  DcmSequenceOfItems* items = nullptr;
-  if (data.findAndGetSequence(DCM_SegmentSequence, items).bad() || items == nullptr)
-    throw BadInput("describes no segments");
-  for (DcmObject* o = items->nextInContainer(nullptr); o != nullptr; o = items->nextInContainer(o)) {
-    auto& item = *static_cast<DcmItem*>(o);
-    Segment s;
-    s.number = wholeNumber(item, DCM_SegmentNumber, 1, 65535);
-    s.label = shownText(item, DCM_SegmentLabel);
-    if (DcmItem* type = itemOf(item, DCM_SegmentedPropertyTypeCodeSequence))
-      s.propertyCode = shownText(*type, DCM_CodingSchemeDesignator) + ":" + shownText(*type, DCM_CodeValue);
-    for (const Segment& other : set.segments)
-      if (other.number == s.number)
-        throw BadInput("uses " + nameOf(DCM_SegmentNumber) + " " + std::to_string(s.number) + " twice");
-    set.segments.push_back(std::move(s));
-    if (set.segments.size() > maxSegments) throw BadInput("describes more than 4096 segments");
-  }
-  std::sort(set.segments.begin(), set.segments.end(),
-            [](const Segment& a, const Segment& b) { return a.number < b.number; });
-}
-
-SegmentationSet read(const std::filesystem::path& file) {
-  ByteSource source(file);
-  const std::uint64_t fileBytes = source.size();
-  const FileLayout layout = readLayout(source);
-  DcmDataset data;
-  parseHeader(source, layout, data);
-  SegmentationSet set;
-  if (text(data, DCM_SOPClassUID) != UID_SegmentationStorage)
-    throw BadInput("is no Segmentation (modality '" + shownText(data, DCM_Modality) + "')");
-  set.warnings = layout.warnings;
-  set.frameOfReferenceUid = shownText(data, DCM_FrameOfReferenceUID);
-  if (DcmItem* series = itemOf(data, DCM_ReferencedSeriesSequence))
-    set.referencedSeriesUid = shownText(*series, DCM_SeriesInstanceUID);
-  readSegments(data, set);
-
-  Header h;
-  h.rows = wholeNumber(data, DCM_Rows, 1, 65535);
-  h.columns = wholeNumber(data, DCM_Columns, 1, 65535);
-  h.bits = wholeNumber(data, DCM_BitsAllocated, 1, 64);
-  const std::string type = shownText(data, DCM_SegmentationType);
-  h.fractional = type == "FRACTIONAL";
-  if ((type != "BINARY" && !h.fractional) || h.bits != (h.fractional ? 8 : 1))
-    throw BadInput("is of type '" + type + "' with " + std::to_string(h.bits) +
-                   " bits a pixel; BINARY with 1 and FRACTIONAL with 8 are read");
-  if (h.fractional) h.maximum = wholeNumber(data, DCM_MaximumFractionalValue, 1, 255);
-  const auto frames = static_cast<std::size_t>(wholeNumber(data, DCM_NumberOfFrames, 1, maxFrames));
-  const auto pixels = static_cast<std::size_t>(h.rows) * static_cast<std::size_t>(h.columns);
-  const PackedFrames packed(source, layout, frames, pixels, h.bits);
-  readFrames(data, frames, h, set);
+/// Masks of all segments. frame(n): its pixels, one byte each.
+SegmentationSet assembled(SegHeader h, std::uint64_t fileBytes,
+                          const std::function<std::vector<std::uint8_t>(std::size_t)>& frame) {
+  SegmentationSet set = std::move(h.about);
   std::vector<int> sliceOfFrame;
   const image::Grid grid = latticeOf(h, sliceOfFrame);
   // A mask takes 8 bytes for each that a packed file holds; slices without frames and segments multiply.
@@ -219,14 +83,14 @@ SegmentationSet read(const std::filesystem::path& file) {
     throw BadInput("holds " + std::to_string(set.segments.size()) + " segments of " +
                    std::to_string(grid.voxelCount()) + " voxels, which do not fit the memory budget");
   for (Segment& s : set.segments) s.mask = image::Mask(grid);
-  for (std::size_t n = 0; n < frames; ++n) {
+  for (std::size_t n = 0; n < h.frames.size(); ++n) {
     const auto segment = std::find_if(set.segments.begin(), set.segments.end(),
                                       [&](const Segment& s) { return s.number == h.frames[n].segment; });
     if (segment == set.segments.end())
       throw BadInput("has a frame of segment " + std::to_string(h.frames[n].segment) + ", which it does not describe");
-    const std::vector<std::uint8_t> values = packed.frame(n);
-    std::uint8_t* to = segment->mask.values.data() + static_cast<std::size_t>(sliceOfFrame[n]) * pixels;
-    for (std::size_t i = 0; i < pixels; ++i)
+    const std::vector<std::uint8_t> values = frame(n);
+    std::uint8_t* to = segment->mask.values.data() + static_cast<std::size_t>(sliceOfFrame[n]) * h.pixels();
+    for (std::size_t i = 0; i < h.pixels(); ++i)
       if (h.fractional ? 2 * values[i] >= h.maximum : values[i] != 0) to[i] = 1;
   }
   if (h.fractional) set.warnings.push_back("is a fractional segmentation: voxels from one half on were taken");
@@ -238,7 +102,19 @@ SegmentationSet read(const std::filesystem::path& file) {
 SegmentationSet readSegmentation(const std::filesystem::path& file) {
   const std::string which = "'" + file.filename().string() + "' ";
   try {
-    return read(file);
+    ByteSource source(file);
+    if (const auto layout = plainLayout(source)) {
+      SegHeader h = detail::parseSegHeader(source, *layout);
+      const PackedFrames packed(source, *layout, h.frames.size(), h.pixels(), h.bits);
+      return assembled(std::move(h), source.size(), [&packed](std::size_t n) { return packed.frame(n); });
+    }
+    IsolatedFile isolated(file);
+    SegHeader h = isolated.segmentation();
+    return assembled(std::move(h), source.size(), [&isolated, pixels = h.pixels()](std::size_t n) {
+      return isolated.frame(static_cast<int>(n), pixels);
+    });
+  } catch (const RefusedFile& e) {
+    throw BadInput(which + e.reason);
   } catch (const BadInput& e) {
     throw BadInput(which + e.what());
   } catch (const std::bad_alloc&) {
@@ -249,12 +125,18 @@ SegmentationSet readSegmentation(const std::filesystem::path& file) {
 bool isSegmentation(const std::filesystem::path& file) {
   try {
     ByteSource source(file);
-    const FileLayout layout = readLayout(source);
-    if (layout.sopClassUid == UID_SegmentationStorage) return true;
-    if (!layout.sopClassUid.empty()) return false;
+    const auto layout = plainLayout(source);
+    if (layout && !layout->sopClassUid.empty()) return layout->sopClassUid == UID_SegmentationStorage;
+    if (!layout) {
+      IsolatedFile isolated(file);
+      isolated.segmentation();
+      return true;
+    }
     DcmDataset data;
-    parseHeader(source, layout, data);
+    parseHeader(source, *layout, data);
     return text(data, DCM_SOPClassUID) == UID_SegmentationStorage;
+  } catch (const RefusedFile&) {
+    return false;
   } catch (const BadInput&) {
     return false;
   }

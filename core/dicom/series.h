@@ -33,7 +33,8 @@ struct Series {
   std::string uid;  ///< SeriesInstanceUID (a suffix "#2" ... where one UID held several volumes: echoes, image types)
   std::string studyUid;
   std::string frameOfReferenceUid;  ///< empty where absent
-  std::string patientKey;           ///< SHA-256 of the patient's identity: to tell patients apart, never to show
+  std::string patientKey;           ///< SHA-256 of the patient's identity: to tell patients apart, never to show;
+                                    ///< empty where the files name none
   std::string modality;
   std::string description;  ///< SeriesDescription, control characters removed
   int number = 0;           ///< SeriesNumber

@@ -64,7 +64,9 @@ const LoadedRoi& ExportCase::roi() {
   roi_ = loadRoi(g.kind == GeometrySpec::Kind::Mask ? g.file : g.roi, g.roiName, g.label, progress_);
   for (const std::string& w : roi_->warnings) warn(w);
   if (g.kind == GeometrySpec::Kind::Patient) {
-    mriGrid_ = loadImage(g.mri, progress_, g.roles).volume.grid;
+    const AnatomicalImage mri = loadImage(g.mri, progress_, g.roles);
+    for (const std::string& w : checkRoi(*roi_, &mri, nullptr, g.overrideChecks)) warn(w);
+    mriGrid_ = mri.volume.grid;
     if (const auto completed = completeOutlines(*roi_, *mriGrid_)) warn(*completed);
   }
   return *roi_;

@@ -6,6 +6,7 @@
 #include "image/io.h"
 #include "pipeline/breath_hold.h"
 #include "pipeline/detail/needs.h"
+#include "pipeline/region_file.h"
 #include "pipeline/sources.h"
 
 namespace glisson::pipeline {
@@ -42,14 +43,7 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
   progress.report(0.4, "reading the region of interest");
   LoadedRoi roi = loadRoi(g.roi, g.roiName, g.label, progress.part(0.4, 0.5));
   append(in.warnings, roi.warnings);
-  if (roi.contours && !roi.contours->frameOfReferenceUid.empty() && !mri.frameOfReferenceUid.empty() &&
-      roi.contours->frameOfReferenceUid != mri.frameOfReferenceUid)
-    in.warnings.push_back(
-        "the contours and the MRI have different frames of reference: check that they belong together");
-  if (roi.mask && !roi.frameOfReferenceUid.empty() && !mri.frameOfReferenceUid.empty() &&
-      roi.frameOfReferenceUid != mri.frameOfReferenceUid)
-    in.warnings.push_back(
-        "the segmentation and the MRI have different frames of reference: check that they belong together");
+  append(in.warnings, checkRoi(roi, &mri, nullptr, g.overrideChecks));
   const std::optional<std::string> completed = completeOutlines(roi, mri.volume.grid);
   if (completed) in.warnings.push_back(*completed);
   in.liver = roi.contours ? roi::rasterise(*roi.contours, mri.volume.grid) : *roi.mask;
@@ -80,7 +74,7 @@ Inputs loadInputs(const Scene& scene, const Progress& progress) {
   if (g.kind == GeometrySpec::Kind::Patient) loadPatient(scene, needs, in, progress);
   StepClock clock(in);
   if (g.kind == GeometrySpec::Kind::Mask) {
-    in.liver = image::readMask(g.file, g.label);
+    in.liver = readRegion(g.file, g.label, surfaceCell_mm(g), in.warnings);
     clock.note("read-roi");
     if (needs.mriValues && !g.background.empty()) in.mri = loadImage(g.background, progress).volume;
     if (needs.mriValues) clock.note("read-mri");

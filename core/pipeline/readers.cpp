@@ -67,7 +67,16 @@ ReadersOfCase compareCase(const ReaderRequest& request, const std::string& name,
   std::optional<LoadedStiffness> mre;
   if (!request.mre.empty()) mre = loadStiffness(ofCase(request.mre, name, many), request.meaning, progress);
   std::optional<image::Grid> grid, mriGrid;
-  if (!request.mri.empty()) mriGrid = loadImage(ofCase(request.mri, name, many), progress).volume.grid;
+  std::optional<AnatomicalImage> mri;
+  if (!request.mri.empty()) mri = loadImage(ofCase(request.mri, name, many), progress);
+  if (mri) mriGrid = mri->volume.grid;
+  const auto tell = [&](const std::vector<std::string>& said) {
+    for (const std::string& warning : said) warnings.push_back(name + ": " + warning);
+  };
+  tell(checkReaders(rois, request.overrideChecks));
+  if (mri && mre) tell(checkTogether(*mri, *mre, request.overrideChecks));
+  for (const LoadedRoi& roi : rois)
+    tell(checkRoi(roi, mri ? &*mri : nullptr, mre ? &*mre : nullptr, request.overrideChecks));
   for (const LoadedRoi& roi : rois)
     if (roi.mask && !grid) grid = roi.mask->grid;
   if (!grid) grid = mriGrid;
@@ -87,7 +96,7 @@ ReadersOfCase compareCase(const ReaderRequest& request, const std::string& name,
   if (!mre) return result;
   for (const LoadedRoi& roi : rois) {
     const elastography::MappedRoi mapped = mapRoi(roi, mriGrid, mre->map);
-    for (const std::string& warning : mapped.warnings) warnings.push_back(name + ": " + warning);
+    tell(mapped.warnings);
     result.stiffness_kPa.push_back(elastography::measure(mre->map, mapped.mask).pooled.mean_kPa);
   }
   return result;

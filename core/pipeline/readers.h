@@ -20,6 +20,7 @@ struct ReaderRequest {
   MapMeaning meaning;                          ///< of bare maps
   int label = 0;                               ///< of masks
   std::string name;                            ///< of structures
+  bool overrideChecks = false;                 ///< outlines of other patients or days are meant
   bool outlines = false;                       ///< distances in each slice (few, thick slices) instead of in space
 };
 

@@ -9,6 +9,7 @@
 #include "elastography/roi_from_structures.h"
 #include "image/io.h"
 #include "pipeline/file_names.h"
+#include "pipeline/region_file.h"
 #include "roi/contour_io.h"
 #include "roi/interpolate.h"
 #include "roi/plane.h"
@@ -86,6 +87,7 @@ AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& pro
   out.frameOfReferenceUid = series.frameOfReferenceUid;
   out.patientKey = series.patientKey;
   out.studyDate = series.studyDate;
+  out.studyUid = series.studyUid;
   out.warnings = warningsOf(scan, series, false);
   return out;
 }
@@ -130,6 +132,7 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
   out.map.frameOfReferenceUid = series.frameOfReferenceUid;
   out.patientKey = series.patientKey;
   out.studyDate = series.studyDate;
+  out.studyUid = series.studyUid;
   append(out.warnings, warningsOf(scan, series, true));
   for (const dicom::Series& s : scan.series)
     if (s.role == dicom::SeriesRole::Confidence && !s.error && s.studyUid == series.studyUid) {
@@ -139,26 +142,6 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
   if (!out.map.confidence)
     out.warnings.push_back("there is no confidence map: every voxel of the region of interest counts");
   return out;
-}
-
-std::vector<std::string> checkTogether(const AnatomicalImage& mri, const LoadedStiffness& mre, bool overridden) {
-  std::vector<std::string> said;
-  const auto differ = [](const std::string& a, const std::string& b) { return !a.empty() && !b.empty() && a != b; };
-  const auto refuse = [&](const std::string& what) {
-    if (!overridden)
-      throw BadInput(what +
-                     "; choose two series of one examination, or take them together nevertheless with --override "
-                     "(\"override\": true in the scene's geometry), which is written to the record");
-    said.push_back(what + ": overridden by the user");
-  };
-  if (differ(mri.patientKey, mre.patientKey)) refuse("the MRI and the elastogram belong to different patients");
-  if (differ(mri.studyDate, mre.studyDate)) refuse("the MRI and the elastogram were taken on different days");
-  if (differ(mri.frameOfReferenceUid, mre.map.frameOfReferenceUid))
-    said.push_back(
-        std::string(
-            "the MRI and the elastogram have different frames of reference: check that the patient did not move ") +
-        (overridden ? "(confirmed by the user)" : "(confirm it with --override)"));
-  return said;
 }
 
 void checkRolesFound(const dicom::RoleOverrides& roles, const std::vector<std::vector<std::string>>& notFound) {
@@ -190,20 +173,23 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
   }
   if (lowerExtension(path) == ".json") {
     out.contours = roi::readContours(path);
-  } else if (image::isVolumeFile(path)) {
-    out.mask = image::readMask(path, label);
+  } else if (isRegionFile(path)) {
+    out.mask = readRegion(path, label, std::nullopt, out.warnings);
   } else if (dicom::isSegmentation(path)) {
     const dicom::SegmentationSet set = dicom::readSegmentation(path);
     append(out.warnings, set.warnings);
     out.mask = dicom::maskOf(set, segmentNumber(set, name, label));
     out.frameOfReferenceUid = set.frameOfReferenceUid;
+    out.origin = set.origin;
     out.referencedSeriesUid = set.referencedSeriesUid;
   } else {
     dicom::StructureSet set = dicom::readRtStruct(path);
     append(out.warnings, set.warnings);
     out.contours = elastography::roiFromStructures(set, name);
     if (out.contours->frameOfReferenceUid.empty()) out.contours->frameOfReferenceUid = set.frameOfReferenceUid;
+    out.origin = set.origin;
   }
+  if (out.contours) out.frameOfReferenceUid = out.contours->frameOfReferenceUid;
   if (label != 0 && !out.mask)
     out.warnings.push_back("a label picks a value of a mask; these are contours: it was not used");
   return out;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "dicom/origin.h"
 #include "dicom/series.h"
 #include "elastography/roi_mapping.h"
 #include "elastography/statistics.h"
@@ -21,6 +22,7 @@ struct AnatomicalImage {
   std::string frameOfReferenceUid;  ///< empty for files without one
   std::string patientKey;           ///< to tell patients apart, never to show
   std::string studyDate;            ///< to compare, never to show
+  std::string studyUid;
   std::vector<std::string> warnings;
   std::vector<std::string> rolesNotFound;  ///< series named in roles that are not here
 };
@@ -41,6 +43,7 @@ struct LoadedStiffness {
   elastography::StiffnessMap map;
   std::string patientKey;
   std::string studyDate;
+  std::string studyUid;
   std::vector<std::string> warnings;
   std::vector<std::string> rolesNotFound;  ///< as in AnatomicalImage
 };
@@ -64,12 +67,23 @@ struct LoadedRoi {
   std::optional<roi::ContourStack> contours;
   std::optional<image::Mask> mask;
   std::vector<std::string> warnings;
-  std::string frameOfReferenceUid;  ///< of a mask that came as DICOM Segmentation; else empty
+  std::string frameOfReferenceUid;  ///< of DICOM objects and contour files that name one; else empty
+  dicom::Origin origin;             ///< of DICOM objects; else empty
   std::string referencedSeriesUid;  ///< the series that the Segmentation was made on; empty where it names none
 };
 
 /// name: structure or segment to take; empty = found by its name. label: of a label map (0 = any), or segment number.
 LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, int label, const Progress& progress = {});
+
+/// Whether a region of interest belongs to the images that it is used with (null: not used). Throws BadInput where it
+/// is of another patient; or of another examination day, unless a frame of reference that it shares with an image puts
+/// it in place; each unless overridden. Returns what to tell and to store: that, and a frame of reference that the MRI
+/// does not have (mapRoi compares the elastogram's). What either does not say is not compared.
+std::vector<std::string> checkRoi(const LoadedRoi& roi, const AnatomicalImage* mri, const LoadedStiffness* mre,
+                                  bool overridden);
+
+/// Whether regions of several readers may be compared: the same rules, each with the first; overridden as above.
+std::vector<std::string> checkReaders(const std::vector<LoadedRoi>& rois, bool overridden);
 
 /// Fills empty slices between outlined ones by shape, where the region came as polygons (roi/interpolate.h). Returns
 /// what to tell the user, empty where every slice between the first and the last outlined one holds an outline that was

@@ -62,6 +62,54 @@ class DicomInputs(unittest.TestCase):
                                            "material": "mre"}, "zip.json")
         self.assertTrue(cli_json("plan", scene)["plan"])
 
+    def test_region_of_another_patient_is_refused_and_can_be_overridden(self):
+        changed = pydicom.dcmread(self.patient / "rtstruct.dcm")
+        changed.PatientID, changed.PatientName = "OTHER7", "PHI^CANARY"
+        changed.save_as(self.folder / "other.dcm")
+        measure = ("measure", "--mre", self.patient / "mre", "--roi", self.folder / "other.dcm")
+        for more in ((), ("--mri", self.patient / "mri")):
+            said = cli(*measure, *more, "--quiet", code=3).stderr
+            self.assertIn("belong to different patients", said)
+            self.assertIn("--override", said)
+            self.assertNotIn("CANARY", said)
+            self.assertNotIn("OTHER7", said)
+        overridden = cli_json(*measure, "--override")
+        self.assertTrue(any("overridden by the user" in w for w in overridden["warnings"]))
+        self.assertEqual(overridden["pooled"], cli_json(*measure[:3], "--roi", self.patient / "rtstruct.dcm")["pooled"])
+        both = (self.patient / "rtstruct.dcm", self.folder / "other.dcm", "--mri", self.patient / "mri")
+        self.assertIn("different patients", cli("agree", *both, "--quiet", code=3).stderr)
+        self.assertEqual(cli_json("agree", *both, "--override")["cases"][0]["with_first"][0]["dice"], 1.0)
+        scene = {"geometry": {"kind": "patient", "mri": str(self.patient / "mri"), "mre": str(self.patient / "mre"),
+                              "roi": str(self.folder / "other.dcm")}, "material": "mre"}
+        self.assertIn("different patients", cli("export", write_scene(self.folder, scene), "--to", "seg", "--output",
+                                                self.folder / "out", "--quiet", code=3).stderr)
+
+    def test_region_of_another_frame_of_reference_is_warned_about(self):
+        changed = pydicom.dcmread(self.patient / "rtstruct.dcm")
+        for item in changed.ReferencedFrameOfReferenceSequence:
+            item.FrameOfReferenceUID = "1.2.3.4"
+        for item in changed.StructureSetROISequence:
+            item.ReferencedFrameOfReferenceUID = "1.2.3.4"
+        changed.save_as(self.folder / "other.dcm")
+        said = cli_json("measure", "--mre", self.patient / "mre", "--roi", self.folder / "other.dcm", "--mri",
+                        self.patient / "mri")["warnings"]
+        self.assertTrue(any("the region of interest and the MRI have different frames of reference" in w for w in said))
+        self.assertTrue(any("the elastogram have different frames of reference" in w for w in said))
+
+    def test_convert_says_which_series_and_refuses_to_guess(self):
+        out = self.folder / "out.nii"
+        taken = cli_json("convert", self.patient, out)["series"]  # one anatomical series among others
+        self.assertEqual(taken["role"], "anatomical")
+        self.assertIn("anatomical, 256 x 256 x", cli("convert", self.patient, out, "--quiet").stdout)
+        refused = cli("convert", self.patient / "mre", out, "--quiet", code=3).stderr
+        self.assertIn("choose one with --series", refused)
+        self.assertIn("stiffness, 256 x 256 x", refused)
+        self.assertEqual(cli_json("convert", self.patient / "mre", out, "--series", "stiffness")["series"]["role"], "stiffness")
+        self.assertIn("scan", cli("convert", self.patient / "mre", out, "--series", "99999", "--quiet", code=3).stderr)
+        cli("phantom", "--cases", 1, "--seed", 8, "--output", self.folder / "other", "--quiet")
+        shutil.copytree(self.patient / "mri", self.folder / "other" / "first")
+        self.assertIn("2 series fit", cli("convert", self.folder / "other", out, "--quiet", code=3).stderr)
+
     def test_dicomdir_reads_what_it_lists(self):
         disc = self.folder / "disc"
         shutil.copytree(self.patient / "mre" / "stiffness", disc / "DICOM")

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dicom/file_layout.h"
+#include "dicom/origin.h"
 
 class DcmDataset;
 class DcmItem;
@@ -47,6 +48,10 @@ DcmItem* itemOf(DcmItem& item, const DcmTagKey& sequence, unsigned long index = 
 
 /// Number of items of a sequence; 0 where absent.
 unsigned long itemCount(DcmItem& item, const DcmTagKey& sequence);
+
+/// Patient and study of an object. The key is empty where neither PatientID nor PatientName says who it is; trailing
+/// empty parts of a name make no other patient.
+Origin originOf(DcmItem& item);
 
 /// "Name (gggg,eeee)" for messages.
 std::string nameOf(const DcmTagKey& tag);

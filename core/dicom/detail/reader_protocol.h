@@ -11,10 +11,12 @@ namespace glisson::dicom::detail {
 inline constexpr int readerSocket = 3;
 
 enum class Ask : std::uint32_t {
-  Open = 1,   ///< payload: path, memory limit, CPU limit -> Header
-  Frame,      ///< payload: number, CPU limit -> Pixels, of the opened file
-  Directory,  ///< payload: path, limits -> List
-  Unpack      ///< payload: path, limits -> Entry, Data ..., Entry, ..., Done
+  Open = 1,      ///< payload: path, memory limit, CPU limit -> Header
+  Frame,         ///< payload: number, CPU limit -> Pixels, of the opened file
+  Directory,     ///< payload: path, limits -> List
+  Structures,    ///< payload: path, limits -> Structures
+  Segmentation,  ///< payload: path, limits -> Segmentation; its frames are asked for with Frame
+  Unpack         ///< payload: path, limits -> Entry, Data ..., Entry, ..., Done
 };
 
 enum class Answer : std::uint32_t {
@@ -25,6 +27,8 @@ enum class Answer : std::uint32_t {
   Entry,         ///< name of the next entry of an archive; its bytes follow
   EntryRefused,  ///< name, reason
   Data,
+  Structures,
+  Segmentation,
   Done
 };
 

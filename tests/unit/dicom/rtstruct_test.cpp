@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "dicom/keyhole.h"
+#include "dicom/reader_process.h"
 #include "dicom/write_mr.h"
 #include "dicom_bytes.h"
 #include "support/support.h"
@@ -164,6 +165,74 @@ TEST(RtStruct, refusesWhatIsNone) {
     ASSERT_TRUE(file.saveFile((folder / "changed.dcm").c_str(), EXS_LittleEndianImplicit).good());
     EXPECT_THROW(readRtStruct(folder / "changed.dcm"), BadInput) << data;
   }
+}
+
+TEST(RtStruct, saysWhoseItIsAsItsImagesDo) {
+  const TemporaryFolder folder;
+  const Series source = writtenSource(folder);
+  writeRtStruct(folder / "rt.dcm", someContours(source.grid), source, 1);
+  const Origin origin = readRtStruct(folder / "rt.dcm").origin;
+  EXPECT_EQ(origin.patientKey.size(), 64U);
+  EXPECT_EQ(origin.patientKey, source.patientKey);
+  EXPECT_EQ(origin.studyUid, source.studyUid);
+  // Empty parts at the end of a name make no other patient; another name does; no name at all says nothing.
+  const auto keyOf = [&folder](const char* name, const char* id) {
+    DcmFileFormat file;
+    file.loadFile((folder / "rt.dcm").c_str());
+    file.getDataset()->putAndInsertString(DCM_PatientName, name);
+    file.getDataset()->putAndInsertString(DCM_PatientID, id);
+    file.saveFile((folder / "other.dcm").c_str(), EXS_LittleEndianExplicit);
+    return readRtStruct(folder / "other.dcm").origin.patientKey;
+  };
+  EXPECT_EQ(keyOf("A^B", "1"), keyOf("A^B^^^", "1"));
+  EXPECT_NE(keyOf("A^B", "1"), keyOf("A^C", "1"));
+  EXPECT_NE(keyOf("A^B", "1"), keyOf("A^B", "2"));
+  EXPECT_EQ(keyOf("", ""), "");
+}
+
+TEST(RtStruct, whatIsNotPlainIsReadByTheReaderProcess) {
+  const TemporaryFolder folder;
+  const Series source = writtenSource(folder);
+  writeRtStruct(folder / "rt.dcm", someContours(source.grid), source, 1);
+  DcmFileFormat file;
+  ASSERT_TRUE(file.loadFile((folder / "rt.dcm").c_str()).good());
+  ASSERT_TRUE(file.saveFile((folder / "deflated.dcm").c_str(), EXS_DeflatedLittleEndianExplicit).good());
+  const StructureSet here = readRtStruct(folder / "rt.dcm"), there = readRtStruct(folder / "deflated.dcm");
+  ASSERT_EQ(there.structures.size(), here.structures.size());
+  for (std::size_t s = 0; s < here.structures.size(); ++s) {
+    EXPECT_EQ(there.structures[s].name, here.structures[s].name);
+    ASSERT_EQ(there.structures[s].contours.size(), here.structures[s].contours.size());
+    for (std::size_t c = 0; c < here.structures[s].contours.size(); ++c) {
+      EXPECT_EQ(there.structures[s].contours[c].points_lps_mm, here.structures[s].contours[c].points_lps_mm);
+      EXPECT_EQ(there.structures[s].contours[c].referencedSopInstanceUid,
+                here.structures[s].contours[c].referencedSopInstanceUid);
+    }
+  }
+  EXPECT_EQ(there.frameOfReferenceUid, here.frameOfReferenceUid);
+  EXPECT_EQ(there.referencedSeriesUid, here.referencedSeriesUid);
+  EXPECT_EQ(there.origin.patientKey, here.origin.patientKey);
+  EXPECT_EQ(there.origin.studyUid, here.origin.studyUid);
+  // A crash, a hang, an answer that makes no sense: a reason. The word makes the file odd: its element is out of order.
+  const std::filesystem::path usual = readerProgram();
+  const auto saidOf = [&folder](const std::string& word) -> std::string {
+    std::filesystem::copy_file(folder / "rt.dcm", folder / "odd.dcm",
+                               std::filesystem::copy_options::overwrite_existing);
+    std::ofstream(folder / "odd.dcm", std::ios::app | std::ios::binary)
+        << test::DicomBytes::tag(0x00081040) + test::DicomBytes::little(word.size(), 4) + word;
+    try {
+      return std::to_string(readRtStruct(folder / "odd.dcm").structures.size()) + " structures";
+    } catch (const BadInput& e) {
+      return e.what();
+    }
+  };
+  setReaderProgram(GLISSON_FAULTY_READER);
+  EXPECT_EQ(saidOf("fair"), "2 structures");
+  EXPECT_THAT(saidOf("FAULT-CRASH "), HasSubstr("crash (signal SIGSEGV)"));
+  EXPECT_THAT(saidOf("FAULT-LOOP"), HasSubstr("takes longer to decode than its size allows"));
+  EXPECT_THAT(saidOf("FAULT-LIE "), HasSubstr("a message that makes no sense"));
+  setReaderProgram("/no/such/glisson-reader");
+  EXPECT_THAT(saidOf("fair"), HasSubstr("reader process, which cannot be started"));
+  setReaderProgram(usual);
 }
 
 TEST(RtStruct, realOnesAreRead) {

@@ -118,6 +118,23 @@ TEST(Segmentation, ofOthersEqualsTheirOwnMask) {
   }
 }
 
+TEST(Segmentation, whatIsNotPlainIsReadByTheReaderProcessOrNotAtAll) {
+  GLISSON_NEEDS_DATA("dicom_seg_rtstruct");
+  const std::filesystem::path usual = readerProgram();
+  setReaderProgram("/no/such/glisson-reader");
+  EXPECT_TRUE(isSegmentation(shared("pydicom_data/liver.dcm")));
+  EXPECT_EQ(readSegmentation(shared("pydicom_data/liver.dcm")).segments.size(), 1U);
+  for (const char* name : {"pydicom_data/liver_rle.dcm", "pydicom_data/liver_deflate.dcm"}) {
+    try {
+      readSegmentation(shared(name));
+      ADD_FAILURE() << name << " was parsed here";
+    } catch (const BadInput& e) {
+      EXPECT_THAT(e.what(), testing::HasSubstr("reader process, which cannot be started"));
+    }
+  }
+  setReaderProgram(usual);
+}
+
 TEST(Segmentation, framesThatAreNoWholeBytesAreReadFromRunLengths) {
   GLISSON_NEEDS_DATA("dicom_seg_rtstruct");
   // The same liver, cropped from 512 to 510 pixels by whoever made the file.

@@ -53,6 +53,51 @@ TEST(Together, otherFrameOfReferenceIsAWarningToBeConfirmed) {
   EXPECT_THAT(checkTogether(mri, mre, true), ElementsAre(HasSubstr("confirmed by the user")));
 }
 
+TEST(Together, aRegionOfAnotherPatientOrDayIsAnErrorUnlessOverridden) {
+  AnatomicalImage mri;
+  LoadedStiffness mre;
+  LoadedRoi roi;
+  EXPECT_THAT(checkRoi(roi, &mri, &mre, false), IsEmpty());  // nobody says anything
+  EXPECT_THAT(checkRoi(roi, nullptr, nullptr, false), IsEmpty());
+  mri.patientKey = mre.patientKey = roi.origin.patientKey = "a";
+  mri.studyDate = mre.studyDate = "20200101";
+  mri.studyUid = "1.5";
+  mri.frameOfReferenceUid = roi.frameOfReferenceUid = "1.2";
+  roi.origin.studyDate = "20200301";  // drawn later, in the frame of reference of the images
+  EXPECT_THAT(checkRoi(roi, &mri, &mre, false), IsEmpty());
+  roi.frameOfReferenceUid = "1.3";
+  EXPECT_THROW(checkRoi(roi, &mri, nullptr, false), BadInput);
+  EXPECT_THROW(checkRoi(roi, nullptr, &mre, false), BadInput);
+  EXPECT_THAT(checkRoi(roi, &mri, nullptr, true),
+              ElementsAre(HasSubstr("another day"), HasSubstr("frames of reference")));
+  roi.origin.studyUid = "1.5";  // filed under another day, drawn on this examination
+  EXPECT_THAT(checkRoi(roi, &mri, nullptr, false), ElementsAre(HasSubstr("confirm it with --override")));
+  roi.frameOfReferenceUid = "1.2";
+  roi.origin.patientKey = "b";
+  try {
+    checkRoi(roi, &mri, &mre, false);
+    FAIL() << "a region of another patient was taken";
+  } catch (const BadInput& e) {
+    EXPECT_THAT(e.what(), HasSubstr("the region of interest and the MRI belong to different patients"));
+    EXPECT_THAT(e.what(), HasSubstr("--override"));
+  }
+  mre.studyUid = "1.5";
+  EXPECT_THAT(checkRoi(roi, nullptr, &mre, true), ElementsAre(HasSubstr("different patients: overridden by the user")));
+}
+
+TEST(Together, readersOutlineOnePatient) {
+  std::vector<LoadedRoi> rois(3);
+  EXPECT_THAT(checkReaders(rois, false), IsEmpty());
+  rois[0].origin.patientKey = rois[1].origin.patientKey = "a";
+  rois[2].origin.patientKey = "b";
+  EXPECT_THROW(checkReaders(rois, false), BadInput);
+  EXPECT_THAT(checkReaders(rois, true), ElementsAre(HasSubstr("reader 1 and reader 3 belong to different patients")));
+  rois[2].origin.patientKey = "a";
+  rois[0].frameOfReferenceUid = "1.2";
+  rois[1].frameOfReferenceUid = "1.3";
+  EXPECT_THAT(checkReaders(rois, false), ElementsAre(HasSubstr("different frames of reference")));
+}
+
 TEST(Together, aRoleMustBeOfASeriesThatIsThere) {
   const dicom::RoleOverrides roles = {{"1.2", dicom::SeriesRole::Stiffness}, {"7", dicom::SeriesRole::Anatomical}};
   EXPECT_NO_THROW(checkRolesFound(roles, {{"1.2"}, {"7"}}));
