@@ -5,6 +5,7 @@
 #include <QTranslator>
 #include <array>
 #include <iostream>
+#include <vector>
 
 #include "base/version.h"
 #include "panels/main_window.h"
@@ -15,11 +16,13 @@ namespace {
 
 using glisson::session::Step;
 
-std::optional<Step> stepNamed(const QString& name) {
+/// One step, or all of them; none where the name is none.
+std::vector<Step> stepsNamed(const QString& name) {
   constexpr std::array names = {"load", "segment", "model", "retract", "compare"};
+  if (name == QLatin1String("all")) return {glisson::session::steps.begin(), glisson::session::steps.end()};
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (name == QLatin1String(names[i])) return glisson::session::steps[i];
-  return std::nullopt;
+    if (name == QLatin1String(names[i])) return {glisson::session::steps[i]};
+  return {};
 }
 
 }  // namespace
@@ -49,20 +52,21 @@ int main(int argc, char** argv) {
                                     QStringLiteral("With --screenshot: outlines to import."), QStringLiteral("file"));
   const QCommandLineOption run(QStringLiteral("run"), QStringLiteral("With --screenshot: run before the picture."));
   const QCommandLineOption step(QStringLiteral("step"),
-                                QStringLiteral("With --screenshot: load, segment, model, retract or compare."),
+                                QStringLiteral("With --screenshot: load, segment, model, retract, compare or all."),
                                 QStringLiteral("name"), QStringLiteral("segment"));
   const QCommandLineOption slice(QStringLiteral("slice"), QStringLiteral("With --screenshot: MRI slice, from 1."),
                                  QStringLiteral("n"), QStringLiteral("0"));
-  const QCommandLineOption screenshot(QStringLiteral("screenshot"),
-                                      QStringLiteral("Save a picture of the window as PNG and quit."),
-                                      QStringLiteral("file"));
+  const QCommandLineOption screenshot(
+      QStringLiteral("screenshot"),
+      QStringLiteral("Save a picture of the window as PNG (step all: into this folder) and quit."),
+      QStringLiteral("file"));
   const QCommandLineOption language(QStringLiteral("language"),
                                     QStringLiteral("en or de; otherwise that of the desktop."), QStringLiteral("code"));
   parser.addOptions({synthetic, theme, language, screenshot, step, slice, outlines, run});
   parser.process(app);
-  const std::optional<Step> wantedStep = stepNamed(parser.value(step));
+  const std::vector<Step> wantedSteps = stepsNamed(parser.value(step));
   const bool light = parser.value(theme) == QLatin1String("light");
-  if (!wantedStep || (!light && parser.value(theme) != QLatin1String("dark")) ||
+  if (wantedSteps.empty() || (!light && parser.value(theme) != QLatin1String("dark")) ||
       parser.positionalArguments().size() > 1) {
     std::cerr << "glisson: unknown step or theme, or more than one folder; see glisson --help\n";
     return 2;
@@ -82,7 +86,7 @@ int main(int argc, char** argv) {
   window.show();
   const bool opening = parser.isSet(synthetic) || !parser.positionalArguments().isEmpty();
   if (parser.isSet(screenshot)) {
-    auto* picture = new glisson::Screenshot(window, {parser.value(screenshot), *wantedStep, parser.value(outlines),
+    auto* picture = new glisson::Screenshot(window, {parser.value(screenshot), wantedSteps, parser.value(outlines),
                                                      parser.isSet(run), parser.value(slice).toInt() - 1});
     picture->start(opening);
   }

@@ -1,9 +1,12 @@
 #include "screenshot.h"
 
 #include <QApplication>
+#include <QDir>
 #include <QPixmap>
 #include <QScreen>
 #include <QTimer>
+#include <algorithm>
+#include <array>
 #include <iostream>
 
 #include "panels/compare_page.h"
@@ -48,33 +51,52 @@ void Screenshot::afterLoad() {
     settle();
     return;
   }
-  if (wish_.step == session::Step::Retract) {
-    auto* live = window_.findChild<panels::LiveBar*>();
-    connect(live, &panels::LiveBar::ready, this, [this, live] {
-      window_.showStep(wish_.step);
-      live->setLive(true);
-      settle();
-    });
-    window_.run();
-    return;
-  }
-  connect(window_.findChild<panels::ComparePage*>(), &panels::ComparePage::overlayShown, this, &Screenshot::settle,
-          static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::SingleShotConnection));
+  const auto wanted = [this](session::Step step) { return std::ranges::count(wish_.steps, step) > 0; };
+  wantsLive_ = wanted(session::Step::Retract);
+  wantsOverlay_ = wanted(session::Step::Compare);
+  connect(window_.findChild<panels::LiveBar*>(), &panels::LiveBar::ready, this, [this] {
+    wantsLive_ = false;
+    whenReady();
+  });
+  connect(
+      window_.findChild<panels::ComparePage*>(), &panels::ComparePage::overlayShown, this,
+      [this] {
+        wantsOverlay_ = false;
+        whenReady();
+      },
+      static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::SingleShotConnection));
+  connect(&window_.session(), &Session::runFinished, this, &Screenshot::whenReady, Qt::QueuedConnection);
   window_.run();
 }
 
+void Screenshot::whenReady() {
+  if (!wantsLive_ && !wantsOverlay_ && next_ == 0) settle();
+}
+
 void Screenshot::settle() {
-  window_.showStep(wish_.step);
+  const session::Step step = wish_.steps[next_];
+  window_.showStep(step);
+  if (step == session::Step::Retract && wish_.run) window_.findChild<panels::LiveBar*>()->setLive(true);
   if (wish_.slice >= 0) window_.findChild<views::SliceView*>(QStringLiteral("mriView"))->setSlice(wish_.slice);
   QTimer::singleShot(settle_ms, this, &Screenshot::take);
 }
 
 void Screenshot::take() {
+  static constexpr std::array names = {"load", "segment", "model", "retract", "compare"};
+  QString file = wish_.file;
+  if (wish_.steps.size() > 1) {
+    QDir().mkpath(file);
+    file +=
+        QLatin1Char('/') + QLatin1String(names[static_cast<std::size_t>(wish_.steps[next_])]) + QStringLiteral(".png");
+  }
   // The screen, not the widget: only there are the OpenGL views drawn into the rest.
   const QPixmap shot = window_.screen()->grabWindow(window_.winId());
-  const bool saved = shot.save(wish_.file, "PNG");
+  const bool saved = shot.save(file, "PNG");
   if (!saved) std::cerr << "glisson: cannot write the screenshot\n";
-  QApplication::exit(saved ? 0 : 1);
+  if (saved && ++next_ < wish_.steps.size())
+    settle();
+  else
+    QApplication::exit(saved ? 0 : 1);
 }
 
 }  // namespace glisson

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "pipeline/case_folder.h"
 #include "pipeline/detail/json_reader.h"
 
 namespace glisson::pipeline {
@@ -409,6 +410,7 @@ Scene parseScene(const std::string& text, const std::filesystem::path& folder, c
 }
 
 Scene readScene(const std::filesystem::path& file) {
+  if (isCase(file)) return sceneOfCase(file);
   std::ifstream in(file, std::ios::binary);
   if (!in) throw BadInput("cannot read the scene '" + file.filename().string() + "'; check that it exists");
   std::ostringstream text;

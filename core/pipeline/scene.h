@@ -58,8 +58,9 @@ struct Scene {
   std::filesystem::path folder;  ///< relative paths of the file are resolved against this
 };
 
-/// Reads and checks a scene file. Comments (// and /* */) are allowed. Throws BadInput that names the key and the line
-/// for an unknown key, a wrong type or unit, a missing file or key.
+/// Reads and checks a scene file, or the scene of a case (case.json or its folder, see case_folder.h). Comments (// and
+/// /* */) are allowed. Throws BadInput that names the key and the line for an unknown key, a wrong type or unit, a
+/// missing file or key; for a case also as readCase does.
 Scene readScene(const std::filesystem::path& file);
 
 /// The same from text; folder resolves relative paths.

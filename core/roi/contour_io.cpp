@@ -1,18 +1,14 @@
 #include "roi/contour_io.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 
 namespace glisson::roi {
@@ -117,11 +113,6 @@ Json parse(const std::string& text, const std::string& source) {
   }
 }
 
-[[noreturn]] void cannotWrite(const std::filesystem::path& file) {
-  throw BadInput("the contours cannot be written to '" + file.filename().string() + "': " + std::strerror(errno) +
-                 "; choose a folder that can be written to");
-}
-
 }  // namespace
 
 std::string toJson(const ContourStack& contours) {
@@ -190,31 +181,7 @@ ContourStack readContours(const std::filesystem::path& file) {
 }
 
 void writeContours(const std::filesystem::path& file, const ContourStack& contours) {
-  const std::string text = toJson(contours);
-  std::filesystem::path beside = file;
-  beside += ".part" + std::to_string(getpid());
-  const int descriptor = open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (descriptor < 0) cannotWrite(file);
-  bool good = true;
-  for (std::size_t done = 0; good && done < text.size();) {
-    const ssize_t n = write(descriptor, text.data() + done, text.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    good = n > 0;
-    if (good) done += static_cast<std::size_t>(n);
-  }
-  good = good && fsync(descriptor) == 0;
-  good = close(descriptor) == 0 && good;
-  if (!good || std::rename(beside.c_str(), file.c_str()) != 0) {
-    const int reason = errno;
-    unlink(beside.c_str());
-    errno = reason;
-    cannotWrite(file);
-  }
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  if (const int d = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); d >= 0) {
-    fsync(d);
-    close(d);
-  }
+  writeAtomically(file, toJson(contours));
 }
 
 }  // namespace glisson::roi

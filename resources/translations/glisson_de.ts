@@ -1,1758 +1,2546 @@
 <?xml version="1.0" encoding="utf-8"?>
 <!DOCTYPE TS>
 <TS version="2.1" language="de">
- <context>
-  <name>glisson::panels::ComparePage</name>
-  <message>
-   <source>Run the retraction to compare MRE with the atlas.</source>
-   <translation>Retraktion rechnen, um MRE und Atlas zu vergleichen.</translation>
-  </message>
-  <message>
-   <source>Not run yet.</source>
-   <translation>Noch nicht gerechnet.</translation>
-    </message>
-    <message>
-        <source>The box plot of the differences appears here.</source>
-        <translation>Hier erscheint der Boxplot der Unterschiede.</translation>
-    </message>
-    <message>
-        <source>MRE against atlas</source>
-        <translation>MRE gegen Atlas</translation>
-    </message>
-    <message>
-        <source>Difference at the retractor</source>
-        <translation>Unterschied am Retraktor</translation>
-    </message>
-    <message>
-        <source>Over the whole liver</source>
-        <translation>In der ganzen Leber</translation>
-    </message>
-    <message>
-        <source>Hepatic vessels</source>
-        <translation>Lebergefäße</translation>
-    </message>
-    <message>
-        <source>How far to trust it</source>
-        <translation>Wie weit es gilt</translation>
-    </message>
-    <message>
-        <source>Display</source>
-        <translation>Anzeige</translation>
-    </message>
-    <message>
-        <source>Red / blue</source>
-        <translation>Rot / Blau</translation>
-    </message>
-    <message>
-        <source>Orange / blue (colour-blind)</source>
-        <translation>Orange / Blau (farbenblind)</translation>
-    </message>
-    <message>
-        <source>Colours</source>
-        <translation>Farben</translation>
-    </message>
-    <message>
-        <source>Oblique</source>
-        <translation>Schräg</translation>
-    </message>
-    <message>
-        <source>From the front</source>
-        <translation>Von vorn</translation>
-    </message>
-    <message>
-        <source>From below</source>
-        <translation>Von unten</translation>
-    </message>
-    <message>
-        <source>Camera</source>
-        <translation>Blick</translation>
-    </message>
-    <message>
-        <source>Overlay</source>
-        <translation>Überlagerung</translation>
-    </message>
-    <message>
-        <source>Difference in mm</source>
-        <translation>Unterschied in mm</translation>
-    </message>
-    <message>
-        <source>Slice</source>
-        <translation>Schicht</translation>
-    </message>
-    <message>
-        <source>3-D</source>
-        <translation>3-D</translation>
-    </message>
-    <message>
-        <source>Box plot</source>
-        <translation>Boxplot</translation>
-    </message>
-    <message>
-        <source>Beside it</source>
-        <translation>Daneben</translation>
-    </message>
-    <message>
-        <source>slice %1 / %2</source>
-        <translation>Schicht %1 / %2</translation>
-    </message>
-    <message>
-        <source>Export pictures and report…</source>
-        <translation>Bilder und Bericht exportieren …</translation>
-    </message>
-    <message>
-        <source>Slices, difference map, 3-D and box plot in these colours, report and record of the run</source>
-        <translation>Schichten, Differenzkarte, 3-D und Boxplot in diesen Farben, Bericht und Protokoll des Laufs</translation>
-    </message>
-    <message>
-        <source>mean %1, 95th percentile %2, largest %3
+    <context>
+        <name>glisson::panels::ComparePage</name>
+        <message>
+            <source>Run the retraction to compare MRE with the atlas.</source>
+            <translation>Retraktion rechnen, um MRE und Atlas zu vergleichen.</translation>
+        </message>
+        <message>
+            <source>Not run yet.</source>
+            <translation>Noch nicht gerechnet.</translation>
+        </message>
+        <message>
+            <source>The box plot of the differences appears here.</source>
+            <translation>Hier erscheint der Boxplot der Unterschiede.</translation>
+        </message>
+        <message>
+            <source>MRE against atlas</source>
+            <translation>MRE gegen Atlas</translation>
+        </message>
+        <message>
+            <source>Difference at the retractor</source>
+            <translation>Unterschied am Retraktor</translation>
+        </message>
+        <message>
+            <source>Over the whole liver</source>
+            <translation>In der ganzen Leber</translation>
+        </message>
+        <message>
+            <source>Hepatic vessels</source>
+            <translation>Lebergefäße</translation>
+        </message>
+        <message>
+            <source>How far to trust it</source>
+            <translation>Wie weit es gilt</translation>
+        </message>
+        <message>
+            <source>Display</source>
+            <translation>Anzeige</translation>
+        </message>
+        <message>
+            <source>Red / blue</source>
+            <translation>Rot / Blau</translation>
+        </message>
+        <message>
+            <source>Orange / blue (colour-blind)</source>
+            <translation>Orange / Blau (farbenblind)</translation>
+        </message>
+        <message>
+            <source>Colours</source>
+            <translation>Farben</translation>
+        </message>
+        <message>
+            <source>Oblique</source>
+            <translation>Schräg</translation>
+        </message>
+        <message>
+            <source>From the front</source>
+            <translation>Von vorn</translation>
+        </message>
+        <message>
+            <source>From below</source>
+            <translation>Von unten</translation>
+        </message>
+        <message>
+            <source>Camera</source>
+            <translation>Blick</translation>
+        </message>
+        <message>
+            <source>Overlay</source>
+            <translation>Überlagerung</translation>
+        </message>
+        <message>
+            <source>Difference in mm</source>
+            <translation>Unterschied in mm</translation>
+        </message>
+        <message>
+            <source>Slice</source>
+            <translation>Schicht</translation>
+        </message>
+        <message>
+            <source>3-D</source>
+            <translation>3-D</translation>
+        </message>
+        <message>
+            <source>Box plot</source>
+            <translation>Boxplot</translation>
+        </message>
+        <message>
+            <source>Beside it</source>
+            <translation>Daneben</translation>
+        </message>
+        <message>
+            <source>slice %1 / %2</source>
+            <translation>Schicht %1 / %2</translation>
+        </message>
+        <message>
+            <source>Export pictures and report…</source>
+            <translation>Bilder und Bericht exportieren …</translation>
+        </message>
+        <message>
+            <source>Slices, difference map, 3-D and box plot in these colours, report and record of the run</source>
+            <translation>Schichten, Differenzkarte, 3-D und Boxplot in diesen Farben, Bericht und Protokoll des Laufs</translation>
+        </message>
+        <message>
+            <source>mean %1, 95th percentile %2, largest %3
 %4</source>
-        <translation>Mittel %1, 95. Perzentil %2, größter %3
+            <translation>Mittel %1, 95. Perzentil %2, größter %3
 %4</translation>
-    </message>
-    <message>
-        <source>At or above the 5 mm that matter clinically.</source>
-        <translation>Mindestens die klinisch bedeutsamen 5 mm.</translation>
-    </message>
-    <message>
-        <source>Below the 5 mm that matter clinically.</source>
-        <translation>Unter den klinisch bedeutsamen 5 mm.</translation>
-    </message>
-    <message>
-        <source>No vessel landmarks were found.</source>
-        <translation>Keine Gefäßpunkte gefunden.</translation>
-    </message>
-    <message>
-        <source>%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 % at 5 mm or more</source>
-        <translation>%1 Gefäßpunkte: Mittel %2, 95. Perzentil %3, größter %4; %5 % mit 5 mm oder mehr</translation>
-    </message>
-    <message>
-        <source>Places on vessels where MRE and atlas lie 5 mm or more apart</source>
-        <translation>Gefäßstellen, an denen MRE und Atlas 5 mm oder mehr auseinanderliegen</translation>
-    </message>
-    <message>
-        <source>Apart</source>
-        <translation>Abstand</translation>
-    </message>
-    <message>
-        <source>L, P, S (mm)</source>
-        <translation>L, P, S (mm)</translation>
-    </message>
-    <message>
-        <source>Choose a place: the slice shows it, magnified</source>
-        <translation>Stelle wählen: die Schicht zeigt sie vergrößert</translation>
-    </message>
-    <message>
-        <source>%1 mm</source>
-        <translation>%1 mm</translation>
-    </message>
-    <message>
-        <source>Something has changed since this run: run again.</source>
-        <translation>Seit diesem Lauf hat sich etwas geändert: neu rechnen.</translation>
-    </message>
-    <message>
-        <source>No warning: strains and rotations are within linear theory.</source>
-        <translation>Keine Warnung: Dehnungen und Drehungen liegen im Bereich der linearen Theorie.</translation>
-    </message>
-    <message>
-        <source>The cells of %1 mm may shift a place by %2 mm on average, and by no more than %3 mm in 95 % of the liver (estimated from cells twice as large).</source>
-        <translation>Die Zellen von %1 mm können eine Stelle im Mittel um %2 mm verschieben, in 95 % der Leber um höchstens %3 mm (geschätzt aus doppelt so großen Zellen).</translation>
-    </message>
-    <message>
-        <source>That is less than half of the mean difference shown.</source>
-        <translation>Das ist weniger als die Hälfte des gezeigten mittleren Unterschieds.</translation>
-    </message>
-    <message>
-        <source>That is more than half of the mean difference shown: use smaller cells before concluding.</source>
-        <translation>Das ist mehr als die Hälfte des gezeigten mittleren Unterschieds: vor Schlüssen kleinere Zellen nehmen.</translation>
-    </message>
-    <message>
-        <source>How much the size of the cells matters is not known: %1</source>
-        <translation>Wie viel die Größe der Zellen ausmacht, ist nicht bekannt: %1</translation>
-    </message>
-    <message>
-        <source>Folder for pictures and report</source>
-        <translation>Ordner für Bilder und Bericht</translation>
-    </message>
-</context>
- <context>
-  <name>glisson::panels::ImageLayers</name>
-  <message>
-   <source>Stiffness</source>
-   <translation>Steifigkeit</translation>
-  </message>
-  <message>
-   <source>Magnitude</source>
-   <translation>Magnitude</translation>
-  </message>
-  <message>
-   <source>Wave</source>
-   <translation>Welle</translation>
-  </message>
-  <message>
-   <source>Confidence</source>
-   <translation>Konfidenz</translation>
-  </message>
-  <message>
-   <source>Show the %1 image</source>
-   <translation>Zeigt das Bild „%1“</translation>
-  </message>
-  <message>
-   <source>Play the wave (V)</source>
-   <translation>Welle abspielen (V)</translation>
-  </message>
-  <message>
-   <source>MRE magnitude</source>
-   <translation>MRE-Magnitude</translation>
-  </message>
-  <message>
-   <source>MRE stiffness (µ)</source>
-   <translation>MRE-Steifigkeit (µ)</translation>
-  </message>
-  <message>
-   <source>MRE confidence</source>
-   <translation>MRE-Konfidenz</translation>
-  </message>
-  <message>
-   <source>MRE wave</source>
-   <translation>MRE-Welle</translation>
-  </message>
-  <message>
-   <source>step %1 of %2</source>
-   <translation>Schritt %1 von %2</translation>
-  </message>
-  <message>
-   <source>one time step</source>
-   <translation>ein Zeitschritt</translation>
-  </message>
- </context>
- <context>
-  <name>glisson::panels::KeySheet</name>
-  <message>
-   <source>Keys and mouse</source>
-   <translation>Tasten und Maus</translation>
-  </message>
-  <message>
-   <source>What</source>
-   <translation>Was</translation>
-  </message>
-  <message>
-   <source>Key</source>
-   <translation>Taste</translation>
-  </message>
-  <message>
-   <source>Group</source>
-   <translation>Gruppe</translation>
-  </message>
-  <message>
-   <source>Keys</source>
-   <translation>Tasten</translation>
-  </message>
-  <message>
-   <source>Mouse</source>
-   <translation>Maus</translation>
-  </message>
-  <message>
-   <source>Idle</source>
-   <translation>Ruhe</translation>
-  </message>
-  <message>
-   <source>Drawing</source>
-   <translation>Zeichnen</translation>
-  </message>
-  <message>
-   <source>Editing, accepted</source>
-   <translation>Bearbeiten, angenommen</translation>
-  </message>
-  <message>
-   <source>Double-click a key to change it. Keys work while the mouse is over an image.</source>
-   <translation>Doppelklick auf eine Taste ändert sie. Tasten wirken, solange die Maus über einem Bild steht.</translation>
-  </message>
-  <message>
-   <source>As shipped</source>
-   <translation>Wie ausgeliefert</translation>
-  </message>
-  <message>
-   <source>Press the new key:</source>
-   <translation>Neue Taste drücken:</translation>
-  </message>
-  <message>
-   <source>This key already means: %1</source>
-   <translation>Diese Taste bedeutet schon: %1</translation>
-  </message>
- </context>
- <context>
-  <name>glisson::panels::LoadPage</name>
-  <message>
-   <source>Open a patient</source>
-   <translation>Patienten öffnen</translation>
-  </message>
-  <message>
-   <source>A DICOM folder with an abdominal MRI and an MR elastogram. Drop it here, or start with a synthetic patient to look around.</source>
-   <translation>Ein DICOM-Ordner mit Abdomen-MRT und MR-Elastogramm. Hier ablegen, oder zum Umsehen mit einem synthetischen Patienten beginnen.</translation>
-  </message>
-  <message>
-   <source>Open DICOM folder…</source>
-   <translation>DICOM-Ordner öffnen…</translation>
-  </message>
-  <message>
-   <source>Open a folder (Ctrl+O)</source>
-   <translation>Ordner öffnen (Strg+O)</translation>
-  </message>
-  <message>
-   <source>Synthetic patient</source>
-   <translation>Synthetischer Patient</translation>
-  </message>
-  <message>
-   <source>Makes a synthetic patient as DICOM and opens it (Ctrl+Shift+N)</source>
-   <translation>Erzeugt einen synthetischen Patienten als DICOM und öffnet ihn (Strg+Umschalt+N)</translation>
-  </message>
-  <message>
-   <source>Recent</source>
-   <translation>Zuletzt</translation>
-  </message>
-  <message>
-   <source>Series</source>
-   <translation>Serien</translation>
-  </message>
-  <message>
-   <source>Open another…</source>
-   <translation>Anderen öffnen…</translation>
-  </message>
-  <message>
-   <source>Open another folder (Ctrl+O)</source>
-   <translation>Anderen Ordner öffnen (Strg+O)</translation>
-  </message>
-  <message>
-   <source>No.</source>
-   <translation>Nr.</translation>
-  </message>
-  <message>
-   <source>Description</source>
-   <translation>Beschreibung</translation>
-  </message>
-  <message>
-   <source>Role</source>
-   <translation>Rolle</translation>
-  </message>
-  <message>
-   <source>Why</source>
-   <translation>Warum</translation>
-  </message>
-  <message>
-   <source>Voxels</source>
-   <translation>Voxel</translation>
-  </message>
-  <message>
-   <source>Spacing</source>
-   <translation>Abstand</translation>
-  </message>
-  <message>
-   <source>Warnings</source>
-   <translation>Warnungen</translation>
-  </message>
-  <message>
-   <source>Files left out</source>
-   <translation>Ausgelassene Dateien</translation>
-  </message>
-  <message>
-   <source>File</source>
-   <translation>Datei</translation>
-  </message>
-  <message>
-   <source>Reason</source>
-   <translation>Grund</translation>
-  </message>
-  <message>
-   <source>%1 series, %2 files left out. Correct a role where the guess is wrong.</source>
-   <translation>%1 Serien, %2 Dateien ausgelassen. Eine falsch geratene Rolle lässt sich ändern.</translation>
-  </message>
- </context>
- <context>
-  <name>glisson::panels::MainWindow</name>
-  <message>
-   <source>Open DICOM folder</source>
-   <translation>DICOM-Ordner öffnen</translation>
-  </message>
-  <message>
-   <source>Import outlines</source>
-   <translation>Konturen importieren</translation>
-  </message>
-  <message>
-   <source>Outlines (*.dcm *.json *.nii *.nii.gz *.nrrd *.mha);;All files (*)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Save case into a folder</source>
-   <translation>Fall in einen Ordner speichern</translation>
-  </message>
-  <message>
-   <source>Save case</source>
-   <translation>Fall speichern</translation>
-  </message>
-  <message>
-   <source>Open case or archive</source>
-   <translation>Fall oder Archiv öffnen</translation>
-  </message>
-  <message>
-   <source>Cases, archives, DICOMDIR (case.json *.zip DICOMDIR);;All files (*)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>A second reader's outlines</source>
-   <translation>Konturen eines zweiten Befunders</translation>
-  </message>
-  <message>
-   <source>Outlines and cases (*.json *.dcm);;All files (*)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>None yet</source>
-   <translation>Noch keine</translation>
-  </message>
-  <message>
-   <source>Glisson did not end in order. %1 outlines can be brought back%2.</source>
-   <translation>Glisson wurde nicht ordentlich beendet. %1 Konturen lassen sich zurückholen%2.</translation>
-  </message>
-  <message>
-   <source>, and the one being drawn</source>
-   <translation>, auch die gerade gezeichnete</translation>
-  </message>
-  <message>
-   <source>Recover</source>
-   <translation>Zurückholen</translation>
-  </message>
-  <message>
-   <source>Opens the patient and puts the outlines back</source>
-   <translation>Öffnet den Patienten und setzt die Konturen wieder ein</translation>
-  </message>
-  <message>
-   <source>Later</source>
-   <translation>Später</translation>
-  </message>
-  <message>
-   <source>Keeps it for the next start</source>
-   <translation>Bewahrt sie bis zum nächsten Start</translation>
-  </message>
-  <message>
-   <source>Discard</source>
-   <translation>Verwerfen</translation>
-  </message>
-  <message>
-   <source>Deletes what could be brought back</source>
-   <translation>Löscht, was zurückgeholt werden könnte</translation>
-  </message>
-  <message>
-   <source>&amp;File</source>
-   <translation>&amp;Datei</translation>
-  </message>
-  <message>
-   <source>&amp;Open DICOM folder…</source>
-   <translation>DICOM-&amp;Ordner öffnen…</translation>
-  </message>
-  <message>
-   <source>Open &amp;case or archive…</source>
-   <translation>&amp;Fall oder Archiv öffnen…</translation>
-  </message>
-  <message>
-   <source>&amp;Recent</source>
-   <translation>&amp;Zuletzt</translation>
-  </message>
-  <message>
-   <source>Synthetic &amp;patient</source>
-   <translation>Synthetischer &amp;Patient</translation>
-  </message>
-  <message>
-   <source>&amp;Import outlines…</source>
-   <translation>Konturen &amp;importieren…</translation>
-  </message>
-  <message>
-   <source>&amp;Save case</source>
-   <translation>Fall &amp;speichern</translation>
-  </message>
-  <message>
-   <source>Save case &amp;as…</source>
-   <translation>Fall speichern &amp;unter…</translation>
-  </message>
-  <message>
-   <source>&amp;Quit</source>
-   <translation>&amp;Beenden</translation>
-  </message>
-  <message>
-   <source>&amp;Edit</source>
-   <translation>&amp;Bearbeiten</translation>
-  </message>
-  <message>
-   <source>&amp;Undo</source>
-   <translation>&amp;Rückgängig</translation>
-  </message>
-  <message>
-   <source>&amp;Redo</source>
-   <translation>&amp;Wiederherstellen</translation>
-  </message>
-  <message>
-   <source>&amp;Interpolate between slices</source>
-   <translation>Zwischen Schichten &amp;interpolieren</translation>
-  </message>
-  <message>
-   <source>&amp;Accept all interpolated outlines</source>
-   <translation>&amp;Alle interpolierten Konturen annehmen</translation>
-  </message>
-  <message>
-   <source>Load a &amp;second reader's outlines…</source>
-   <translation>Konturen eines &amp;zweiten Befunders laden…</translation>
-  </message>
-  <message>
-   <source>&amp;Compare both readers</source>
-   <translation>Beide Befunder &amp;vergleichen</translation>
-  </message>
-  <message>
-   <source>&amp;Run</source>
-   <translation>&amp;Rechnen</translation>
-  </message>
-  <message>
-   <source>&amp;Build, retract and compare</source>
-   <translation>&amp;Aufbauen, retrahieren und vergleichen</translation>
-  </message>
-  <message>
-   <source>&amp;Cancel</source>
-   <translation>&amp;Abbrechen</translation>
-  </message>
-  <message>
-   <source>&amp;View</source>
-   <translation>&amp;Ansicht</translation>
-  </message>
-  <message>
-   <source>&amp;Dark theme</source>
-   <translation>&amp;Dunkel</translation>
-  </message>
-  <message>
-   <source>&amp;Light theme</source>
-   <translation>&amp;Hell</translation>
-  </message>
-  <message>
-   <source>&amp;Fit images</source>
-   <translation>Bilder &amp;einpassen</translation>
-  </message>
-  <message>
-   <source>&amp;Help</source>
-   <translation>&amp;Hilfe</translation>
-  </message>
-  <message>
-   <source>&amp;Keys and mouse</source>
-   <translation>&amp;Tasten und Maus</translation>
-  </message>
-  <message>
-   <source>&amp;About Glisson</source>
-   <translation>&amp;Über Glisson</translation>
-  </message>
-  <message>
-   <source>, %1 s left</source>
-   <translation>, noch %1 s</translation>
-  </message>
-  <message>
-   <source>, %1 min left</source>
-   <translation>, noch %1 min</translation>
-  </message>
-  <message>
-   <source>Cancel</source>
-   <translation>Abbrechen</translation>
-  </message>
-  <message>
-   <source>Glisson[*] – %1</source>
-   <translation>Glisson[*] – %1</translation>
-  </message>
-  <message>
-   <source>Cancelling</source>
-   <translation>Wird abgebrochen</translation>
-  </message>
-  <message>
-   <source>Two readers</source>
-   <translation>Zwei Befunder</translation>
-  </message>
-  <message>
-   <source>Saved, version %1.</source>
-   <translation>Gespeichert, Version %1.</translation>
-  </message>
-  <message>
-   <source>Not saved: %1 The outlines are kept.</source>
-   <translation>Nicht gespeichert: %1 Die Konturen bleiben erhalten.</translation>
-  </message>
-  <message>
-   <source>&amp;Undo %1</source>
-   <translation>&amp;Rückgängig: %1</translation>
-  </message>
-  <message>
-   <source>&amp;Redo %1</source>
-   <translation>&amp;Wiederherstellen: %1</translation>
-  </message>
-  <message>
-   <source>Outlines are not saved</source>
-   <translation>Konturen sind nicht gespeichert</translation>
-  </message>
-  <message>
-   <source>The outlines of this case are not saved. Go on without saving them?</source>
-   <translation>Die Konturen dieses Falls sind nicht gespeichert. Ohne Speichern fortfahren?</translation>
-  </message>
-  <message>
-   <source>About Glisson</source>
-   <translation>Über Glisson</translation>
-  </message>
-  <message>
-   <source>&lt;h2&gt;Glisson %1&lt;/h2&gt;&lt;p&gt;&lt;b&gt;%2&lt;/b&gt;&lt;/p&gt;&lt;p&gt;Patient-specific biomechanics of the liver from MRI and MR elastography.&lt;/p&gt;&lt;p&gt;Numbers and reference ranges only, never a diagnosis.&lt;/p&gt;&lt;p&gt;Free software under the GNU General Public License, version 3 or later.&lt;/p&gt;</source>
-   <translation type="unfinished" />
-  </message>
-     <message>
-        <source>Exported %1 files.</source>
-        <translation>%1 Dateien exportiert.</translation>
-    </message>
-    <message>
-        <source>Not exported: %1</source>
-        <translation>Nicht exportiert: %1</translation>
-    </message>
-</context>
- <context>
-  <name>glisson::panels::ModelPage</name>
-  <message>
-   <source>Plan</source>
-   <translation>Plan</translation>
-  </message>
-  <message>
-   <source>automatic (%1 mm)</source>
-   <translation>automatisch (%1 mm)</translation>
-  </message>
-  <message>
-   <source>Material</source>
-   <translation>Material</translation>
-  </message>
-  <message>
-   <source>kPa (µ)</source>
-   <translation>kPa (µ)</translation>
-  </message>
-  <message>
-   <source>Run</source>
-   <translation>Rechnen</translation>
-  </message>
-  <message>
-   <source>%1 cells, %2 mL, %3 kg</source>
-   <translation>%1 Zellen, %2 mL, %3 kg</translation>
-    </message>
-    <message>
-        <source>Step</source>
-        <translation>Schritt</translation>
-    </message>
-    <message>
-        <source>Needed</source>
-        <translation>Nötig</translation>
-    </message>
-    <message>
-        <source>Time</source>
-        <translation>Zeit</translation>
-    </message>
-    <message>
-        <source>MR elastogram</source>
-        <translation>MR-Elastogramm</translation>
-    </message>
-    <message>
-        <source>Atlas</source>
-        <translation>Atlas</translation>
-    </message>
-    <message>
-        <source>Shear modulus of the atlas model; healthy donors: 2.1 kPa</source>
-        <translation>Schubmodul des Atlasmodells; gesunde Spender: 2,1 kPa</translation>
-    </message>
-    <message>
-        <source>Poisson&apos;s ratio ν; 0.5 would be incompressible</source>
-        <translation>Querkontraktionszahl ν; 0,5 wäre inkompressibel</translation>
-    </message>
-    <message>
-        <source>Poisson&apos;s ratio ν</source>
-        <translation>Querkontraktion ν</translation>
-    </message>
-    <message>
-        <source>Mass density of the liver</source>
-        <translation>Dichte der Leber</translation>
-    </message>
-    <message>
-        <source>Density</source>
-        <translation>Dichte</translation>
-    </message>
-    <message>
-        <source>Discretisation</source>
-        <translation>Diskretisierung</translation>
-    </message>
-    <message>
-        <source>Voxel FEM (hexahedra)</source>
-        <translation>Voxel-FEM (Hexaeder)</translation>
-    </message>
-    <message>
-        <source>Mesh-free (Voronoi sites)</source>
-        <translation>Netzfrei (Voronoi-Punkte)</translation>
-    </message>
-    <message>
-        <source>Method</source>
-        <translation>Verfahren</translation>
-    </message>
-    <message>
-        <source>Edge of a voxel cell: smaller is more exact and slower. 0 = twice the pixel of the MRI</source>
-        <translation>Kante einer Voxelzelle: kleiner ist genauer und langsamer. 0 = doppelter Pixel des MRT</translation>
-    </message>
-    <message>
-        <source>automatic</source>
-        <translation>automatisch</translation>
-    </message>
-    <message>
-        <source>Cell</source>
-        <translation>Zelle</translation>
-    </message>
-    <message>
-        <source>Number of mesh-free sites</source>
-        <translation>Anzahl netzfreier Punkte</translation>
-    </message>
-    <message>
-        <source>Sites</source>
-        <translation>Punkte</translation>
-    </message>
-    <message>
-        <source>Build, retract and compare (Ctrl+R)</source>
-        <translation>Aufbauen, retrahieren und vergleichen (Strg+R)</translation>
-    </message>
-    <message>
-        <source>no plan</source>
-        <translation>kein Plan</translation>
-    </message>
-    <message>
-        <source>yes</source>
-        <translation>ja</translation>
-    </message>
-    <message>
-        <source>
+        </message>
+        <message>
+            <source>At or above the 5 mm that matter clinically.</source>
+            <translation>Mindestens die klinisch bedeutsamen 5 mm.</translation>
+        </message>
+        <message>
+            <source>Below the 5 mm that matter clinically.</source>
+            <translation>Unter den klinisch bedeutsamen 5 mm.</translation>
+        </message>
+        <message>
+            <source>No vessel landmarks were found.</source>
+            <translation>Keine Gefäßpunkte gefunden.</translation>
+        </message>
+        <message>
+            <source>%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 % at 5 mm or more</source>
+            <translation>%1 Gefäßpunkte: Mittel %2, 95. Perzentil %3, größter %4; %5 % mit 5 mm oder mehr</translation>
+        </message>
+        <message>
+            <source>Places on vessels where MRE and atlas lie 5 mm or more apart</source>
+            <translation>Gefäßstellen, an denen MRE und Atlas 5 mm oder mehr auseinanderliegen</translation>
+        </message>
+        <message>
+            <source>Apart</source>
+            <translation>Abstand</translation>
+        </message>
+        <message>
+            <source>L, P, S (mm)</source>
+            <translation>L, P, S (mm)</translation>
+        </message>
+        <message>
+            <source>Choose a place: the slice shows it, magnified</source>
+            <translation>Stelle wählen: die Schicht zeigt sie vergrößert</translation>
+        </message>
+        <message>
+            <source>%1 mm</source>
+            <translation>%1 mm</translation>
+        </message>
+        <message>
+            <source>Something has changed since this run: run again.</source>
+            <translation>Seit diesem Lauf hat sich etwas geändert: neu rechnen.</translation>
+        </message>
+        <message>
+            <source>No warning: strains and rotations are within linear theory.</source>
+            <translation>Keine Warnung: Dehnungen und Drehungen liegen im Bereich der linearen Theorie.</translation>
+        </message>
+        <message>
+            <source>The cells of %1 mm may shift a place by %2 mm on average, and by no more than %3 mm in 95 % of the liver (estimated from cells twice as large).</source>
+            <translation>Die Zellen von %1 mm können eine Stelle im Mittel um %2 mm verschieben, in 95 % der Leber um höchstens %3 mm (geschätzt aus doppelt so großen Zellen).</translation>
+        </message>
+        <message>
+            <source>That is less than half of the mean difference shown.</source>
+            <translation>Das ist weniger als die Hälfte des gezeigten mittleren Unterschieds.</translation>
+        </message>
+        <message>
+            <source>That is more than half of the mean difference shown: use smaller cells before concluding.</source>
+            <translation>Das ist mehr als die Hälfte des gezeigten mittleren Unterschieds: vor Schlüssen kleinere Zellen nehmen.</translation>
+        </message>
+        <message>
+            <source>How much the size of the cells matters is not known: %1</source>
+            <translation>Wie viel die Größe der Zellen ausmacht, ist nicht bekannt: %1</translation>
+        </message>
+        <message>
+            <source>Folder for pictures and report</source>
+            <translation>Ordner für Bilder und Bericht</translation>
+        </message>
+        <message>
+            <source>The vessels in 3-D appear here.</source>
+            <translation>Hier erscheinen die Gefäße in 3-D.</translation>
+        </message>
+        <message>
+            <source>Error against run time</source>
+            <translation>Fehler gegen Rechenzeit</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::ImageLayers</name>
+        <message>
+            <source>Stiffness</source>
+            <translation>Steifigkeit</translation>
+        </message>
+        <message>
+            <source>Magnitude</source>
+            <translation>Magnitude</translation>
+        </message>
+        <message>
+            <source>Wave</source>
+            <translation>Welle</translation>
+        </message>
+        <message>
+            <source>Confidence</source>
+            <translation>Konfidenz</translation>
+        </message>
+        <message>
+            <source>Show the %1 image</source>
+            <translation>Zeigt das Bild „%1“</translation>
+        </message>
+        <message>
+            <source>Play the wave (V)</source>
+            <translation>Welle abspielen (V)</translation>
+        </message>
+        <message>
+            <source>MRE magnitude</source>
+            <translation>MRE-Magnitude</translation>
+        </message>
+        <message>
+            <source>MRE stiffness (µ)</source>
+            <translation>MRE-Steifigkeit (µ)</translation>
+        </message>
+        <message>
+            <source>MRE confidence</source>
+            <translation>MRE-Konfidenz</translation>
+        </message>
+        <message>
+            <source>MRE wave</source>
+            <translation>MRE-Welle</translation>
+        </message>
+        <message>
+            <source>step %1 of %2</source>
+            <translation>Schritt %1 von %2</translation>
+        </message>
+        <message>
+            <source>one time step</source>
+            <translation>ein Zeitschritt</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::KeySheet</name>
+        <message>
+            <source>Keys and mouse</source>
+            <translation>Tasten und Maus</translation>
+        </message>
+        <message>
+            <source>What</source>
+            <translation>Was</translation>
+        </message>
+        <message>
+            <source>Key</source>
+            <translation>Taste</translation>
+        </message>
+        <message>
+            <source>Group</source>
+            <translation>Gruppe</translation>
+        </message>
+        <message>
+            <source>Keys</source>
+            <translation>Tasten</translation>
+        </message>
+        <message>
+            <source>Mouse</source>
+            <translation>Maus</translation>
+        </message>
+        <message>
+            <source>Idle</source>
+            <translation>Ruhe</translation>
+        </message>
+        <message>
+            <source>Drawing</source>
+            <translation>Zeichnen</translation>
+        </message>
+        <message>
+            <source>Editing, accepted</source>
+            <translation>Bearbeiten, angenommen</translation>
+        </message>
+        <message>
+            <source>Double-click a key to change it. Keys work while the mouse is over an image.</source>
+            <translation>Doppelklick auf eine Taste ändert sie. Tasten wirken, solange die Maus über einem Bild steht.</translation>
+        </message>
+        <message>
+            <source>As shipped</source>
+            <translation>Wie ausgeliefert</translation>
+        </message>
+        <message>
+            <source>Press the new key:</source>
+            <translation>Neue Taste drücken:</translation>
+        </message>
+        <message>
+            <source>This key already means: %1</source>
+            <translation>Diese Taste bedeutet schon: %1</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::LiveBar</name>
+        <message>
+            <source>Move live</source>
+            <translation>Live bewegen</translation>
+        </message>
+        <message>
+            <source>Drag the retractor in the picture, or use the sliders: both livers follow</source>
+            <translation>Den Retraktor im Bild ziehen oder die Regler nehmen: beide Lebern folgen</translation>
+        </message>
+        <message>
+            <source>right – left</source>
+            <translation>rechts – links</translation>
+        </message>
+        <message>
+            <source>front – back</source>
+            <translation>vorn – hinten</translation>
+        </message>
+        <message>
+            <source>down – up</source>
+            <translation>unten – oben</translation>
+        </message>
+        <message>
+            <source>Tool, %1, mm</source>
+            <translation>Werkzeug, %1, mm</translation>
+        </message>
+        <message>
+            <source>As run</source>
+            <translation>Wie gerechnet</translation>
+        </message>
+        <message>
+            <source>Back to the force of the run</source>
+            <translation>Zurück zur Kraft des Laufs</translation>
+        </message>
+        <message>
+            <source>Run the retraction; then the retractor can be moved by hand.</source>
+            <translation>Retraktion rechnen; dann lässt sich der Retraktor von Hand bewegen.</translation>
+        </message>
+        <message>
+            <source>Preparing to move live: %1 %</source>
+            <translation>Live-Bewegung wird vorbereitet: %1 %</translation>
+        </message>
+        <message>
+            <source>The retractor cannot be moved live. %1</source>
+            <translation>Der Retraktor lässt sich nicht live bewegen. %1</translation>
+        </message>
+        <message>
+            <source>Ready: "Move live" puts the retractor into your hand.</source>
+            <translation>Bereit: „Live bewegen“ gibt den Retraktor in die Hand.</translation>
+        </message>
+        <message>
+            <source>%1 mm</source>
+            <translation>%1 mm</translation>
+        </message>
+        <message>
+            <source>Tool %1 mm from rest with %2 N (the run: %3 N). Difference under the bar, weighted by its pressure, %4 mm</source>
+            <translation>Werkzeug %1 mm aus der Ruhe mit %2 N (der Lauf: %3 N). Unterschied unter dem Bügel, nach seinem Druck gewichtet, %4 mm</translation>
+        </message>
+        <message>
+            <source>; vessels: mean %1, largest %2 mm, %3 of %4 landmarks at 5 mm or more</source>
+            <translation>; Gefäße: Mittel %1, größter %2 mm, %3 von %4 Punkten mit 5 mm oder mehr</translation>
+        </message>
+        <message>
+            <source>Linear theory, far beyond the force of the run: shapes are not to be trusted.</source>
+            <translation>Lineare Theorie, weit über der Kraft des Laufs: den Formen ist nicht zu trauen.</translation>
+        </message>
+        <message>
+            <source>Simulation %1 ms a frame (%2 frames/s possible).</source>
+            <translation>Simulation %1 ms je Bild (%2 Bilder/s möglich).</translation>
+        </message>
+        <message>
+            <source>Simulation %1 ms a frame (%2 frames/s possible); on screen %3 pictures/s.</source>
+            <translation>Simulation %1 ms je Bild (%2 Bilder/s möglich); am Schirm %3 Bilder/s.</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::LoadPage</name>
+        <message>
+            <source>Open a patient</source>
+            <translation>Patienten öffnen</translation>
+        </message>
+        <message>
+            <source>A DICOM folder with an abdominal MRI and an MR elastogram. Drop it here, or start with a synthetic patient to look around.</source>
+            <translation>Ein DICOM-Ordner mit Abdomen-MRT und MR-Elastogramm. Hier ablegen, oder zum Umsehen mit einem synthetischen Patienten beginnen.</translation>
+        </message>
+        <message>
+            <source>Open DICOM folder…</source>
+            <translation>DICOM-Ordner öffnen…</translation>
+        </message>
+        <message>
+            <source>Open a folder (Ctrl+O)</source>
+            <translation>Ordner öffnen (Strg+O)</translation>
+        </message>
+        <message>
+            <source>Synthetic patient</source>
+            <translation>Synthetischer Patient</translation>
+        </message>
+        <message>
+            <source>Makes a synthetic patient as DICOM and opens it (Ctrl+Shift+N)</source>
+            <translation>Erzeugt einen synthetischen Patienten als DICOM und öffnet ihn (Strg+Umschalt+N)</translation>
+        </message>
+        <message>
+            <source>Recent</source>
+            <translation>Zuletzt</translation>
+        </message>
+        <message>
+            <source>Series</source>
+            <translation>Serien</translation>
+        </message>
+        <message>
+            <source>Open another…</source>
+            <translation>Anderen öffnen…</translation>
+        </message>
+        <message>
+            <source>Open another folder (Ctrl+O)</source>
+            <translation>Anderen Ordner öffnen (Strg+O)</translation>
+        </message>
+        <message>
+            <source>No.</source>
+            <translation>Nr.</translation>
+        </message>
+        <message>
+            <source>Description</source>
+            <translation>Beschreibung</translation>
+        </message>
+        <message>
+            <source>Role</source>
+            <translation>Rolle</translation>
+        </message>
+        <message>
+            <source>Why</source>
+            <translation>Warum</translation>
+        </message>
+        <message>
+            <source>Voxels</source>
+            <translation>Voxel</translation>
+        </message>
+        <message>
+            <source>Spacing</source>
+            <translation>Abstand</translation>
+        </message>
+        <message>
+            <source>Warnings</source>
+            <translation>Warnungen</translation>
+        </message>
+        <message>
+            <source>Files left out</source>
+            <translation>Ausgelassene Dateien</translation>
+        </message>
+        <message>
+            <source>File</source>
+            <translation>Datei</translation>
+        </message>
+        <message>
+            <source>Reason</source>
+            <translation>Grund</translation>
+        </message>
+        <message>
+            <source>%1 series, %2 files left out. Correct a role where the guess is wrong.</source>
+            <translation>%1 Serien, %2 Dateien ausgelassen. Eine falsch geratene Rolle lässt sich ändern.</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::MainWindow</name>
+        <message>
+            <source>Open DICOM folder</source>
+            <translation>DICOM-Ordner öffnen</translation>
+        </message>
+        <message>
+            <source>Import outlines</source>
+            <translation>Konturen importieren</translation>
+        </message>
+        <message>
+            <source>Outlines (*.dcm *.json *.nii *.nii.gz *.nrrd *.mha);;All files (*)</source>
+            <translation>Konturen (*.dcm *.json *.nii *.nii.gz *.nrrd *.mha);;Alle Dateien (*)</translation>
+        </message>
+        <message>
+            <source>Save case into a folder</source>
+            <translation>Fall in einen Ordner speichern</translation>
+        </message>
+        <message>
+            <source>Save case</source>
+            <translation>Fall speichern</translation>
+        </message>
+        <message>
+            <source>Open case or archive</source>
+            <translation>Fall oder Archiv öffnen</translation>
+        </message>
+        <message>
+            <source>Cases, archives, DICOMDIR (case.json *.zip DICOMDIR);;All files (*)</source>
+            <translation>Fälle, Archive, DICOMDIR (case.json *.zip DICOMDIR);;Alle Dateien (*)</translation>
+        </message>
+        <message>
+            <source>A second reader's outlines</source>
+            <translation>Konturen eines zweiten Befunders</translation>
+        </message>
+        <message>
+            <source>Outlines and cases (*.json *.dcm);;All files (*)</source>
+            <translation>Konturen und Fälle (*.json *.dcm);;Alle Dateien (*)</translation>
+        </message>
+        <message>
+            <source>None yet</source>
+            <translation>Noch keine</translation>
+        </message>
+        <message>
+            <source>Glisson did not end in order. %1 outlines can be brought back%2.</source>
+            <translation>Glisson wurde nicht ordentlich beendet. %1 Konturen lassen sich zurückholen%2.</translation>
+        </message>
+        <message>
+            <source>, and the one being drawn</source>
+            <translation>, auch die gerade gezeichnete</translation>
+        </message>
+        <message>
+            <source>Recover</source>
+            <translation>Zurückholen</translation>
+        </message>
+        <message>
+            <source>Opens the patient and puts the outlines back</source>
+            <translation>Öffnet den Patienten und setzt die Konturen wieder ein</translation>
+        </message>
+        <message>
+            <source>Later</source>
+            <translation>Später</translation>
+        </message>
+        <message>
+            <source>Keeps it for the next start</source>
+            <translation>Bewahrt sie bis zum nächsten Start</translation>
+        </message>
+        <message>
+            <source>Discard</source>
+            <translation>Verwerfen</translation>
+        </message>
+        <message>
+            <source>Deletes what could be brought back</source>
+            <translation>Löscht, was zurückgeholt werden könnte</translation>
+        </message>
+        <message>
+            <source>&amp;File</source>
+            <translation>&amp;Datei</translation>
+        </message>
+        <message>
+            <source>&amp;Open DICOM folder…</source>
+            <translation>DICOM-&amp;Ordner öffnen…</translation>
+        </message>
+        <message>
+            <source>Open &amp;case or archive…</source>
+            <translation>&amp;Fall oder Archiv öffnen…</translation>
+        </message>
+        <message>
+            <source>&amp;Recent</source>
+            <translation>&amp;Zuletzt</translation>
+        </message>
+        <message>
+            <source>Synthetic &amp;patient</source>
+            <translation>Synthetischer &amp;Patient</translation>
+        </message>
+        <message>
+            <source>&amp;Import outlines…</source>
+            <translation>Konturen &amp;importieren…</translation>
+        </message>
+        <message>
+            <source>&amp;Save case</source>
+            <translation>Fall &amp;speichern</translation>
+        </message>
+        <message>
+            <source>Save case &amp;as…</source>
+            <translation>Fall speichern &amp;unter…</translation>
+        </message>
+        <message>
+            <source>&amp;Quit</source>
+            <translation>&amp;Beenden</translation>
+        </message>
+        <message>
+            <source>&amp;Edit</source>
+            <translation>&amp;Bearbeiten</translation>
+        </message>
+        <message>
+            <source>&amp;Undo</source>
+            <translation>&amp;Rückgängig</translation>
+        </message>
+        <message>
+            <source>&amp;Redo</source>
+            <translation>&amp;Wiederherstellen</translation>
+        </message>
+        <message>
+            <source>&amp;Interpolate between slices</source>
+            <translation>Zwischen Schichten &amp;interpolieren</translation>
+        </message>
+        <message>
+            <source>&amp;Accept all interpolated outlines</source>
+            <translation>&amp;Alle interpolierten Konturen annehmen</translation>
+        </message>
+        <message>
+            <source>Load a &amp;second reader's outlines…</source>
+            <translation>Konturen eines &amp;zweiten Befunders laden…</translation>
+        </message>
+        <message>
+            <source>&amp;Compare both readers</source>
+            <translation>Beide Befunder &amp;vergleichen</translation>
+        </message>
+        <message>
+            <source>&amp;Run</source>
+            <translation>&amp;Rechnen</translation>
+        </message>
+        <message>
+            <source>&amp;Build, retract and compare</source>
+            <translation>&amp;Aufbauen, retrahieren und vergleichen</translation>
+        </message>
+        <message>
+            <source>&amp;Cancel</source>
+            <translation>&amp;Abbrechen</translation>
+        </message>
+        <message>
+            <source>&amp;View</source>
+            <translation>&amp;Ansicht</translation>
+        </message>
+        <message>
+            <source>&amp;Dark theme</source>
+            <translation>&amp;Dunkel</translation>
+        </message>
+        <message>
+            <source>&amp;Light theme</source>
+            <translation>&amp;Hell</translation>
+        </message>
+        <message>
+            <source>&amp;Fit images</source>
+            <translation>Bilder &amp;einpassen</translation>
+        </message>
+        <message>
+            <source>&amp;Help</source>
+            <translation>&amp;Hilfe</translation>
+        </message>
+        <message>
+            <source>&amp;Keys and mouse</source>
+            <translation>&amp;Tasten und Maus</translation>
+        </message>
+        <message>
+            <source>&amp;About Glisson</source>
+            <translation>&amp;Über Glisson</translation>
+        </message>
+        <message>
+            <source>, %1 s left</source>
+            <translation>, noch %1 s</translation>
+        </message>
+        <message>
+            <source>, %1 min left</source>
+            <translation>, noch %1 min</translation>
+        </message>
+        <message>
+            <source>Cancel</source>
+            <translation>Abbrechen</translation>
+        </message>
+        <message>
+            <source>Glisson[*] – %1</source>
+            <translation>Glisson[*] – %1</translation>
+        </message>
+        <message>
+            <source>Cancelling</source>
+            <translation>Wird abgebrochen</translation>
+        </message>
+        <message>
+            <source>Two readers</source>
+            <translation>Zwei Befunder</translation>
+        </message>
+        <message>
+            <source>Saved, version %1.</source>
+            <translation>Gespeichert, Version %1.</translation>
+        </message>
+        <message>
+            <source>Not saved: %1 The outlines are kept.</source>
+            <translation>Nicht gespeichert: %1 Die Konturen bleiben erhalten.</translation>
+        </message>
+        <message>
+            <source>&amp;Undo %1</source>
+            <translation>&amp;Rückgängig: %1</translation>
+        </message>
+        <message>
+            <source>&amp;Redo %1</source>
+            <translation>&amp;Wiederherstellen: %1</translation>
+        </message>
+        <message>
+            <source>Outlines are not saved</source>
+            <translation>Konturen sind nicht gespeichert</translation>
+        </message>
+        <message>
+            <source>The outlines of this case are not saved. Go on without saving them?</source>
+            <translation>Die Konturen dieses Falls sind nicht gespeichert. Ohne Speichern fortfahren?</translation>
+        </message>
+        <message>
+            <source>About Glisson</source>
+            <translation>Über Glisson</translation>
+        </message>
+        <message>
+            <source>&lt;h2&gt;Glisson %1&lt;/h2&gt;&lt;p&gt;&lt;b&gt;%2&lt;/b&gt;&lt;/p&gt;&lt;p&gt;Patient-specific biomechanics of the liver from MRI and MR elastography.&lt;/p&gt;&lt;p&gt;Numbers and reference ranges only, never a diagnosis.&lt;/p&gt;&lt;p&gt;Free software under the GNU General Public License, version 3 or later.&lt;/p&gt;</source>
+            <translation>&lt;h2&gt;Glisson %1&lt;/h2&gt;&lt;p&gt;&lt;b&gt;%2&lt;/b&gt;&lt;/p&gt;&lt;p&gt;Patientenspezifische Biomechanik der Leber aus MRT und MR-Elastographie.&lt;/p&gt;&lt;p&gt;Nur Zahlen und Referenzbereiche, nie eine Diagnose.&lt;/p&gt;&lt;p&gt;Freie Software unter der GNU General Public License, Version 3 oder neuer.&lt;/p&gt;</translation>
+        </message>
+        <message>
+            <source>Exported %1 files.</source>
+            <translation>%1 Dateien exportiert.</translation>
+        </message>
+        <message>
+            <source>Not exported: %1</source>
+            <translation>Nicht exportiert: %1</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::MethodChart</name>
+        <message>
+            <source>%1 ms</source>
+            <translation>%1 ms</translation>
+        </message>
+        <message>
+            <source>%1 s</source>
+            <translation>%1 s</translation>
+        </message>
+        <message>
+            <source>%1 mm</source>
+            <translation>%1 mm</translation>
+        </message>
+        <message>
+            <source>no answer</source>
+            <translation>keine Lösung</translation>
+        </message>
+        <message>
+            <source>Error and run time of every method</source>
+            <translation>Fehler und Rechenzeit jedes Verfahrens</translation>
+        </message>
+        <message>
+            <source>Method</source>
+            <translation>Verfahren</translation>
+        </message>
+        <message>
+            <source>Resolution</source>
+            <translation>Auflösung</translation>
+        </message>
+        <message>
+            <source>Run time</source>
+            <translation>Rechenzeit</translation>
+        </message>
+        <message>
+            <source>Largest error</source>
+            <translation>Größter Fehler</translation>
+        </message>
+        <message>
+            <source>Unknowns</source>
+            <translation>Unbekannte</translation>
+        </message>
+        <message>
+            <source>Measure on this patient</source>
+            <translation>An diesem Patienten messen</translation>
+        </message>
+        <message>
+            <source>Runs every method on this liver against a solution eight times as fine; about a minute</source>
+            <translation>Rechnet jedes Verfahren an dieser Leber gegen eine achtmal so feine Lösung; etwa eine Minute</translation>
+        </message>
+        <message>
+            <source>Cancel</source>
+            <translation>Abbrechen</translation>
+        </message>
+        <message>
+            <source>Stops measuring</source>
+            <translation>Bricht die Messung ab</translation>
+        </message>
+        <message>
+            <source>Error against run time on this patient</source>
+            <translation>Fehler gegen Rechenzeit an diesem Patienten</translation>
+        </message>
+        <message>
+            <source>Run time, model and solve (s)</source>
+            <translation>Rechenzeit, Modell und Lösung (s)</translation>
+        </message>
+        <message>
+            <source>Largest displacement error (mm)</source>
+            <translation>Größter Fehler der Verschiebung (mm)</translation>
+        </message>
+        <message>
+            <source>the default</source>
+            <translation>die Vorgabe</translation>
+        </message>
+        <message>
+            <source>your choice</source>
+            <translation>Ihre Wahl</translation>
+        </message>
+        <message>
+            <source>the default, your choice</source>
+            <translation>die Vorgabe, Ihre Wahl</translation>
+        </message>
+        <message>
+            <source>How exact is each method on this liver, and how long does it take?</source>
+            <translation>Wie genau ist jedes Verfahren an dieser Leber, und wie lange braucht es?</translation>
+        </message>
+        <message>
+            <source>Run the retraction first.</source>
+            <translation>Zuerst die Retraktion rechnen.</translation>
+        </message>
+        <message>
+            <source>  (default)</source>
+            <translation>  (Vorgabe)</translation>
+        </message>
+        <message>
+            <source>  (your choice)</source>
+            <translation>  (Ihre Wahl)</translation>
+        </message>
+        <message>
+            <source>Error: the largest distance from %1, over %2 places.</source>
+            <translation>Fehler: der größte Abstand von %1, über %2 Orte.</translation>
+        </message>
+        <message>
+            <source>%1 errs by at most %2 in %3%4.</source>
+            <translation>%1 irrt um höchstens %2 in %3%4.</translation>
+        </message>
+        <message>
+            <source>; nothing else is both faster and closer</source>
+            <translation>; nichts anderes ist zugleich schneller und genauer</translation>
+        </message>
+        <message>
+            <source>The default method</source>
+            <translation>Das vorgegebene Verfahren</translation>
+        </message>
+        <message>
+            <source>Your choice</source>
+            <translation>Ihre Wahl</translation>
+        </message>
+        <message>
+            <source>The method that you chose is not among those measured.</source>
+            <translation>Das von Ihnen gewählte Verfahren ist nicht unter den gemessenen.</translation>
+        </message>
+        <message>
+            <source>%1 variants were left out.</source>
+            <translation>%1 Varianten wurden ausgelassen.</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::ModelPage</name>
+        <message>
+            <source>Plan</source>
+            <translation>Plan</translation>
+        </message>
+        <message>
+            <source>automatic (%1 mm)</source>
+            <translation>automatisch (%1 mm)</translation>
+        </message>
+        <message>
+            <source>Material</source>
+            <translation>Material</translation>
+        </message>
+        <message>
+            <source>kPa (µ)</source>
+            <translation>kPa (µ)</translation>
+        </message>
+        <message>
+            <source>Run</source>
+            <translation>Rechnen</translation>
+        </message>
+        <message>
+            <source>%1 cells, %2 mL, %3 kg</source>
+            <translation>%1 Zellen, %2 mL, %3 kg</translation>
+        </message>
+        <message>
+            <source>Step</source>
+            <translation>Schritt</translation>
+        </message>
+        <message>
+            <source>Needed</source>
+            <translation>Nötig</translation>
+        </message>
+        <message>
+            <source>Time</source>
+            <translation>Zeit</translation>
+        </message>
+        <message>
+            <source>MR elastogram</source>
+            <translation>MR-Elastogramm</translation>
+        </message>
+        <message>
+            <source>Atlas</source>
+            <translation>Atlas</translation>
+        </message>
+        <message>
+            <source>Shear modulus of the atlas model; healthy donors: 2.1 kPa</source>
+            <translation>Schubmodul des Atlasmodells; gesunde Spender: 2,1 kPa</translation>
+        </message>
+        <message>
+            <source>Poisson's ratio ν; 0.5 would be incompressible</source>
+            <translation>Querkontraktionszahl ν; 0,5 wäre inkompressibel</translation>
+        </message>
+        <message>
+            <source>Poisson's ratio ν</source>
+            <translation>Querkontraktion ν</translation>
+        </message>
+        <message>
+            <source>Mass density of the liver</source>
+            <translation>Dichte der Leber</translation>
+        </message>
+        <message>
+            <source>Density</source>
+            <translation>Dichte</translation>
+        </message>
+        <message>
+            <source>Discretisation</source>
+            <translation>Diskretisierung</translation>
+        </message>
+        <message>
+            <source>Method</source>
+            <translation>Verfahren</translation>
+        </message>
+        <message>
+            <source>Edge of a voxel cell: smaller is more exact and slower. 0 = twice the pixel of the MRI</source>
+            <translation>Kante einer Voxelzelle: kleiner ist genauer und langsamer. 0 = doppelter Pixel des MRT</translation>
+        </message>
+        <message>
+            <source>automatic</source>
+            <translation>automatisch</translation>
+        </message>
+        <message>
+            <source>Cell</source>
+            <translation>Zelle</translation>
+        </message>
+        <message>
+            <source>Number of mesh-free sites</source>
+            <translation>Anzahl netzfreier Punkte</translation>
+        </message>
+        <message>
+            <source>Sites</source>
+            <translation>Punkte</translation>
+        </message>
+        <message>
+            <source>Build, retract and compare (Ctrl+R)</source>
+            <translation>Aufbauen, retrahieren und vergleichen (Strg+R)</translation>
+        </message>
+        <message>
+            <source>no plan</source>
+            <translation>kein Plan</translation>
+        </message>
+        <message>
+            <source>yes</source>
+            <translation>ja</translation>
+        </message>
+        <message>
+            <source>
 (of the last run; something has changed since)</source>
-        <translation>
+            <translation>
 (vom letzten Lauf; seither hat sich etwas geändert)</translation>
-    </message>
-    <message>
-        <source>Outline the liver first (step Segment).</source>
-        <translation>Zuerst die Leber umranden (Schritt Segment).</translation>
-    </message>
-    <message>
-        <source>Known after the first run.</source>
-        <translation>Nach dem ersten Lauf bekannt.</translation>
-    </message>
-</context>
- <context>
-  <name>glisson::panels::OutlinePanel</name>
-  <message>
-   <source>Outline the liver</source>
-   <translation>Leber umfahren</translation>
-  </message>
-  <message>
-   <source>Accept</source>
-   <translation>Annehmen</translation>
-  </message>
-  <message>
-   <source>Stiffness under the outline</source>
-   <translation>Steifigkeit in der Kontur</translation>
-  </message>
-  <message>
-   <source>Inner region</source>
-   <translation>Innenbereich</translation>
-  </message>
-  <message>
-   <source> px</source>
-   <translation> px</translation>
-  </message>
-  <message>
-   <source>Pixels of the elastogram taken off the edge ([ and ])</source>
-   <translation>Pixel des Elastogramms, die am Rand wegfallen ([ und ])</translation>
-  </message>
-  <message>
-   <source>Colour scale</source>
-   <translation>Farbskala</translation>
-  </message>
-  <message>
-   <source>0 – %1 kPa</source>
-   <translation>0 – %1 kPa</translation>
-  </message>
-  <message>
-   <source>Outlines</source>
-   <translation>Konturen</translation>
-  </message>
-  <message>
-   <source>Slice</source>
-   <translation>Schicht</translation>
-  </message>
-  <message>
-   <source>Vertices</source>
-   <translation>Punkte</translation>
-  </message>
-  <message>
-   <source>State</source>
-   <translation>Zustand</translation>
-  </message>
-  <message>
-   <source>Interpolate</source>
-   <translation>Interpolieren</translation>
-  </message>
-  <message>
-   <source>Accept all</source>
-   <translation>Alle annehmen</translation>
-  </message>
-  <message>
-   <source>Import outlines…</source>
-   <translation>Konturen importieren…</translation>
-  </message>
-  <message>
-   <source>RT Structure Set, contour file or mask (Ctrl+I)</source>
-   <translation>RT Structure Set, Konturdatei oder Maske (Strg+I)</translation>
-  </message>
-  <message>
-   <source>%1 px → %2 after mask, %3 cm², %4 ± %5 kPa (µ)</source>
-   <translation>%1 px → %2 nach Maske, %3 cm², %4 ± %5 kPa (µ)</translation>
-  </message>
-  <message>
-   <source>Inner region, %1 pixels off the edge</source>
-   <translation>Innenbereich, %1 Pixel vom Rand</translation>
-  </message>
-  <message>
-   <source>%1 ± %2 kPa</source>
-   <translation>%1 ± %2 kPa</translation>
-  </message>
-  <message>
-   <source>All slices: </source>
-   <translation>Alle Schichten: </translation>
-  </message>
-  <message>
-   <source>This slice: </source>
-   <translation>Diese Schicht: </translation>
-  </message>
-  <message>
-   <source>left out</source>
-   <translation>ausgenommen</translation>
-  </message>
-  <message>
-   <source>drawn</source>
-   <translation>gezeichnet</translation>
-  </message>
-  <message>
-   <source>interpolated</source>
-   <translation>interpoliert</translation>
-  </message>
-  <message>
-   <source>draft</source>
-   <translation>Entwurf</translation>
-  </message>
-  <message>
-   <source>empty</source>
-   <translation>leer</translation>
-  </message>
-  <message>
-   <source>no liver</source>
-   <translation>keine Leber</translation>
-  </message>
-  <message>
-   <source>no wave</source>
-   <translation>keine Welle</translation>
-  </message>
-  <message>
-   <source>%1 drawn, %2 interpolated, %3 empty between them.</source>
-   <translation>%1 gezeichnet, %2 interpoliert, %3 leere dazwischen.</translation>
-  </message>
-  <message>
-   <source>A run fills these by shape.</source>
-   <translation>Eine Rechnung füllt diese nach der Form.</translation>
-  </message>
-  <message>
-   <source>Undo %1 (%2)</source>
-   <translation>Rückgängig: %1 (%2)</translation>
-  </message>
-  <message>
-   <source>Redo %1 (%2)</source>
-   <translation>Wiederherstellen: %1 (%2)</translation>
-  </message>
-  <message>
-   <source>Close</source>
-   <translation>Schließen</translation>
-  </message>
-  <message>
-   <source>Drag to push the outline with the disc; [ and ] change its size.</source>
-   <translation>Ziehen schiebt die Kontur mit der Scheibe; [ und ] ändern ihre Größe.</translation>
-  </message>
-  <message>
-   <source>Click vertices on the MRI, or drag to draw freehand. Click an outline to edit it.</source>
-   <translation>Punkte auf der MRT anklicken, oder durch Ziehen freihändig zeichnen. Klick auf eine Kontur bearbeitet sie.</translation>
-  </message>
-  <message>
-   <source>Close on the first vertex, with a right click, a double click or Enter. Backspace takes the last vertex back, Esc parks a draft.</source>
-   <translation>Schließen am ersten Punkt, mit Rechtsklick, Doppelklick oder Eingabe. Rücktaste nimmt den letzten Punkt zurück, Esc legt einen Entwurf ab.</translation>
-  </message>
-  <message>
-   <source>Interpolated between drawn slices. Enter accepts it, correcting it accepts it too; an outline drawn on this slice replaces it.</source>
-   <translation>Zwischen gezeichneten Schichten interpoliert. Eingabe nimmt an, Korrigieren ebenso; eine hier gezeichnete Kontur ersetzt sie.</translation>
-  </message>
-  <message>
-   <source>Drag vertices to adjust; Ctrl+click adds or deletes one. Enter accepts.</source>
-   <translation>Punkte ziehen; Strg+Klick fügt einen ein oder löscht ihn. Eingabe nimmt an.</translation>
-  </message>
-  <message>
-   <source>Accepted. It can still be edited; click beside it to draw the next.</source>
-   <translation>Angenommen. Bleibt bearbeitbar; ein Klick daneben beginnt die nächste.</translation>
-  </message>
- </context>
- <context>
-  <name>glisson::panels::RetractPage</name>
-  <message>
-   <source>Run the retraction to see the liver move.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Play the retraction</source>
-   <translation>Retraktion abspielen</translation>
-    </message>
-    <message>
-        <source>%1 %</source>
-        <translation>%1 %</translation>
-    </message>
-    <message>
-        <source>Retraction</source>
-        <translation>Retraktion</translation>
-    </message>
-    <message>
-        <source>Nathanson retractor</source>
-        <translation>Nathanson-Retraktor</translation>
-    </message>
-    <message>
-        <source>Diameter of the bar</source>
-        <translation>Durchmesser des Bügels</translation>
-    </message>
-    <message>
-        <source>Diameter</source>
-        <translation>Durchmesser</translation>
-    </message>
-    <message>
-        <source>Length of the bar that bears</source>
-        <translation>Tragende Länge des Bügels</translation>
-    </message>
-    <message>
-        <source>Length</source>
-        <translation>Länge</translation>
-    </message>
-    <message>
-        <source>Tissue wraps round the bar: how far its pressure reaches beyond it; 0 is a bare bar</source>
-        <translation>Gewebe legt sich um den Bügel: wie weit sein Druck über ihn hinausreicht; 0 ist ein blanker Bügel</translation>
-    </message>
-    <message>
-        <source>Wrap</source>
-        <translation>Umschlingung</translation>
-    </message>
-    <message>
-        <source>The liver&apos;s weight</source>
-        <translation>Gewicht der Leber</translation>
-    </message>
-    <message>
-        <source>Given force</source>
-        <translation>Gegebene Kraft</translation>
-    </message>
-    <message>
-        <source>Hoist</source>
-        <translation>Zug</translation>
-    </message>
-    <message>
-        <source>Hoisting force, towards anterior in the transverse plane</source>
-        <translation>Zugkraft nach vorn in der Transversalebene</translation>
-    </message>
-    <message>
-        <source>Force</source>
-        <translation>Kraft</translation>
-    </message>
-    <message>
-        <source>Under the inferior right lobe, hoisted towards anterior. The same load for MRE and atlas.</source>
-        <translation>Unter dem unteren rechten Lappen, nach vorn gezogen. Dieselbe Last für MRE und Atlas.</translation>
-    </message>
-    <message>
-        <source>Abdomen</source>
-        <translation>Bauchraum</translation>
-    </message>
-    <message>
-        <source>Elastic resistance per area of the posterior and superior surface (Winkler foundation)</source>
-        <translation>Elastischer Widerstand je Fläche der hinteren und oberen Oberfläche (Winkler-Bettung)</translation>
-    </message>
-    <message>
-        <source>Resistance</source>
-        <translation>Widerstand</translation>
-    </message>
-    <message>
-        <source>Solution</source>
-        <translation>Lösung</translation>
-    </message>
-    <message>
-        <source>Run</source>
-        <translation>Rechnen</translation>
-    </message>
-    <message>
-        <source>Build, retract and compare (Ctrl+R)</source>
-        <translation>Aufbauen, retrahieren und vergleichen (Strg+R)</translation>
-    </message>
-    <message>
-        <source>Not run yet.</source>
-        <translation>Noch nicht gerechnet.</translation>
-    </message>
-    <message>
-        <source>%1: %2 iterations, residual %3
+        </message>
+        <message>
+            <source>Outline the liver first (step Segment).</source>
+            <translation>Zuerst die Leber umranden (Schritt Segment).</translation>
+        </message>
+        <message>
+            <source>Known after the first run.</source>
+            <translation>Nach dem ersten Lauf bekannt.</translation>
+        </message>
+        <message>
+            <source>What this case needs, what it leaves out, and why. Times are predicted before a run and measured after it.</source>
+            <translation>Was dieser Fall braucht, was er weglässt, und warum. Zeiten sind vor einem Lauf geschätzt, danach gemessen.</translation>
+        </message>
+        <message>
+            <source>Why</source>
+            <translation>Warum</translation>
+        </message>
+        <message>
+            <source>Model</source>
+            <translation>Modell</translation>
+        </message>
+        <message>
+            <source>Stiffness</source>
+            <translation>Steifigkeit</translation>
+        </message>
+        <message>
+            <source>Lay elastogram over MRI</source>
+            <translation>Elastogramm auf MRT legen</translation>
+        </message>
+        <message>
+            <source>The elastogram is of another breath-hold: moved rigidly until the magnitude images agree, before it is read</source>
+            <translation>Das Elastogramm stammt aus einer anderen Atempause: es wird starr verschoben, bis die Magnitudenbilder übereinstimmen, dann gelesen</translation>
+        </message>
+        <message>
+            <source>How the liver is divided; Compare shows error against run time of each</source>
+            <translation>Wie die Leber zerlegt wird; Vergleichen zeigt Fehler gegen Rechenzeit für jedes Verfahren</translation>
+        </message>
+        <message>
+            <source>Voxel FEM, incompatible modes</source>
+            <translation>Voxel-FEM, inkompatible Moden</translation>
+        </message>
+        <message>
+            <source>Hexahedra that bend without locking: the default</source>
+            <translation>Hexaeder, die sich biegen, ohne zu sperren: die Vorgabe</translation>
+        </message>
+        <message>
+            <source>Voxel FEM, B-bar</source>
+            <translation>Voxel-FEM, B-Quer</translation>
+        </message>
+        <message>
+            <source>Hexahedra that do not lock where nearly incompressible</source>
+            <translation>Hexaeder, die fast inkompressibel nicht sperren</translation>
+        </message>
+        <message>
+            <source>Voxel FEM, trilinear</source>
+            <translation>Voxel-FEM, trilinear</translation>
+        </message>
+        <message>
+            <source>The plain hexahedron; too stiff in bending</source>
+            <translation>Der einfache Hexaeder; bei Biegung zu steif</translation>
+        </message>
+        <message>
+            <source>Tetrahedra, quadratic</source>
+            <translation>Tetraeder, quadratisch</translation>
+        </message>
+        <message>
+            <source>Six ten-node tetrahedra per voxel</source>
+            <translation>Sechs Tetraeder mit zehn Knoten je Voxel</translation>
+        </message>
+        <message>
+            <source>Tetrahedra, linear</source>
+            <translation>Tetraeder, linear</translation>
+        </message>
+        <message>
+            <source>Six four-node tetrahedra per voxel; too stiff</source>
+            <translation>Sechs Tetraeder mit vier Knoten je Voxel; zu steif</translation>
+        </message>
+        <message>
+            <source>Delaunay, quadratic</source>
+            <translation>Delaunay, quadratisch</translation>
+        </message>
+        <message>
+            <source>Ten-node tetrahedra that follow the smooth surface</source>
+            <translation>Tetraeder mit zehn Knoten, die der glatten Oberfläche folgen</translation>
+        </message>
+        <message>
+            <source>Delaunay, linear</source>
+            <translation>Delaunay, linear</translation>
+        </message>
+        <message>
+            <source>Four-node tetrahedra that follow the smooth surface</source>
+            <translation>Tetraeder mit vier Knoten, die der glatten Oberfläche folgen</translation>
+        </message>
+        <message>
+            <source>Mesh-free, Wendland</source>
+            <translation>Netzfrei, Wendland</translation>
+        </message>
+        <message>
+            <source>Frames with affine motion, Wendland kernel</source>
+            <translation>Rahmen mit affiner Bewegung, Wendland-Kern</translation>
+        </message>
+        <message>
+            <source>Mesh-free, Wendland quadratic</source>
+            <translation>Netzfrei, Wendland quadratisch</translation>
+        </message>
+        <message>
+            <source>Frames with quadratic motion</source>
+            <translation>Rahmen mit quadratischer Bewegung</translation>
+        </message>
+        <message>
+            <source>Mesh-free, Voronoi</source>
+            <translation>Netzfrei, Voronoi</translation>
+        </message>
+        <message>
+            <source>Frames with affine motion, Voronoi kernel as published</source>
+            <translation>Rahmen mit affiner Bewegung, Voronoi-Kern wie veröffentlicht</translation>
+        </message>
+        <message>
+            <source>Mesh-free, moving least squares</source>
+            <translation>Netzfrei, Moving Least Squares</translation>
+        </message>
+        <message>
+            <source>Element-free Galerkin: three degrees of freedom per site</source>
+            <translation>Elementfreies Galerkin-Verfahren: drei Freiheitsgrade je Stützstelle</translation>
+        </message>
+        <message>
+            <source>Edge of the tetrahedra</source>
+            <translation>Kante der Tetraeder</translation>
+        </message>
+        <message>
+            <source>Edge</source>
+            <translation>Kante</translation>
+        </message>
+        <message>
+            <source>Edge of the tetrahedra near the retractor, at most that of the others</source>
+            <translation>Kante der Tetraeder nahe dem Retraktor, höchstens die der übrigen</translation>
+        </message>
+        <message>
+            <source>At the tool</source>
+            <translation>Am Retraktor</translation>
+        </message>
+        <message>
+            <source>Equations</source>
+            <translation>Gleichungen</translation>
+        </message>
+        <message>
+            <source>How strain follows from displacement; other than linear for voxel FEM at rest</source>
+            <translation>Wie die Dehnung aus der Verschiebung folgt; anders als linear nur für Voxel-FEM in Ruhe</translation>
+        </message>
+        <message>
+            <source>Linear</source>
+            <translation>Linear</translation>
+        </message>
+        <message>
+            <source>Corotational</source>
+            <translation>Korotational</translation>
+        </message>
+        <message>
+            <source>Hyperelastic</source>
+            <translation>Hyperelastisch</translation>
+        </message>
+        <message>
+            <source>Deformation</source>
+            <translation>Verformung</translation>
+        </message>
+        <message>
+            <source>One solve for the new rest, or time steps towards it</source>
+            <translation>Eine Lösung für die neue Ruhelage, oder Zeitschritte dorthin</translation>
+        </message>
+        <message>
+            <source>At rest</source>
+            <translation>In Ruhe</translation>
+        </message>
+        <message>
+            <source>Time steps</source>
+            <translation>Zeitschritte</translation>
+        </message>
+        <message>
+            <source>Analysis</source>
+            <translation>Analyse</translation>
+        </message>
+        <message>
+            <source>Length of an implicit time step</source>
+            <translation>Länge eines impliziten Zeitschritts</translation>
+        </message>
+        <message>
+            <source>Stops before where nothing moves any more</source>
+            <translation>Endet früher, wenn sich nichts mehr bewegt</translation>
+        </message>
+        <message>
+            <source>Until</source>
+            <translation>Bis</translation>
+        </message>
+        <message>
+            <source>Who solves the equations; automatic takes the fastest for the size</source>
+            <translation>Wer die Gleichungen löst; automatisch nimmt den schnellsten für die Größe</translation>
+        </message>
+        <message>
+            <source>Automatic</source>
+            <translation>Automatisch</translation>
+        </message>
+        <message>
+            <source>Conjugate gradients</source>
+            <translation>Konjugierte Gradienten</translation>
+        </message>
+        <message>
+            <source>Multigrid</source>
+            <translation>Mehrgitter</translation>
+        </message>
+        <message>
+            <source>Factorised</source>
+            <translation>Faktorisiert</translation>
+        </message>
+        <message>
+            <source>Condensed</source>
+            <translation>Kondensiert</translation>
+        </message>
+        <message>
+            <source>Solver</source>
+            <translation>Löser</translation>
+        </message>
+        <message>
+            <source>Liver</source>
+            <translation>Leber</translation>
+        </message>
+        <message>
+            <source>%1%2 s</source>
+            <translation>%1%2 s</translation>
+        </message>
+        <message>
+            <source>left out</source>
+            <translation>ausgelassen</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::ModelStage</name>
+        <message>
+            <source>The model in 3-D</source>
+            <translation>Das Modell in 3-D</translation>
+        </message>
+        <message>
+            <source>Surface</source>
+            <translation>Oberfläche</translation>
+        </message>
+        <message>
+            <source>The liver's surface</source>
+            <translation>Die Oberfläche der Leber</translation>
+        </message>
+        <message>
+            <source>Stiffness</source>
+            <translation>Steifigkeit</translation>
+        </message>
+        <message>
+            <source>Shear modulus of the cells below the surface, by colour</source>
+            <translation>Schubmodul der Zellen unter der Oberfläche, als Farbe</translation>
+        </message>
+        <message>
+            <source>Vessels</source>
+            <translation>Gefäße</translation>
+        </message>
+        <message>
+            <source>Hepatic vessels found in the MRI</source>
+            <translation>Lebergefäße, im MRT gefunden</translation>
+        </message>
+        <message>
+            <source>Sites</source>
+            <translation>Stützstellen</translation>
+        </message>
+        <message>
+            <source>Nodes of the cells, or mesh-free sites: where the model moves</source>
+            <translation>Knoten der Zellen oder netzfreie Stützstellen: wo sich das Modell bewegt</translation>
+        </message>
+        <message>
+            <source>Supports</source>
+            <translation>Lager</translation>
+        </message>
+        <message>
+            <source>What holds the liver: springs and fixed blocks</source>
+            <translation>Was die Leber hält: Federn und feste Blöcke</translation>
+        </message>
+        <message>
+            <source>Retractor</source>
+            <translation>Retraktor</translation>
+        </message>
+        <message>
+            <source>The bar and the direction of its hoist</source>
+            <translation>Der Stab und die Richtung seines Zugs</translation>
+        </message>
+        <message>
+            <source>Colour scale of the stiffness</source>
+            <translation>Farbskala der Steifigkeit</translation>
+        </message>
+        <message>
+            <source>0–8 kPa</source>
+            <translation>0–8 kPa</translation>
+        </message>
+        <message>
+            <source>0–20 kPa</source>
+            <translation>0–20 kPa</translation>
+        </message>
+        <message>
+            <source>Building the model…</source>
+            <translation>Das Modell entsteht…</translation>
+        </message>
+        <message>
+            <source>hoist</source>
+            <translation>Zug</translation>
+        </message>
+        <message>
+            <source>held %1</source>
+            <translation>Halt %1</translation>
+        </message>
+        <message>
+            <source>Shear modulus of the cells: mean %1, from %2 to %3 kPa.</source>
+            <translation>Schubmodul der Zellen: im Mittel %1, von %2 bis %3 kPa.</translation>
+        </message>
+        <message>
+            <source>%1 mesh-free sites</source>
+            <translation>%1 netzfreie Stützstellen</translation>
+        </message>
+        <message>
+            <source>%1 nodes of cells</source>
+            <translation>%1 Knoten der Zellen</translation>
+        </message>
+        <message>
+            <source>, all shown.</source>
+            <translation>, alle gezeigt.</translation>
+        </message>
+        <message>
+            <source>, %1 of them shown.</source>
+            <translation>, %1 davon gezeigt.</translation>
+        </message>
+        <message>
+            <source>No vessels were found in the MRI.</source>
+            <translation>Im MRT wurden keine Gefäße gefunden.</translation>
+        </message>
+        <message>
+            <source>Fixed (orange): %1.</source>
+            <translation>Fest (orange): %1.</translation>
+        </message>
+        <message>
+            <source>Springs (turquoise): %1.</source>
+            <translation>Federn (türkis): %1.</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::OutlinePanel</name>
+        <message>
+            <source>Outline the liver</source>
+            <translation>Leber umfahren</translation>
+        </message>
+        <message>
+            <source>Accept</source>
+            <translation>Annehmen</translation>
+        </message>
+        <message>
+            <source>Stiffness under the outline</source>
+            <translation>Steifigkeit in der Kontur</translation>
+        </message>
+        <message>
+            <source>Inner region</source>
+            <translation>Innenbereich</translation>
+        </message>
+        <message>
+            <source> px</source>
+            <translation> px</translation>
+        </message>
+        <message>
+            <source>Pixels of the elastogram taken off the edge ([ and ])</source>
+            <translation>Pixel des Elastogramms, die am Rand wegfallen ([ und ])</translation>
+        </message>
+        <message>
+            <source>Colour scale</source>
+            <translation>Farbskala</translation>
+        </message>
+        <message>
+            <source>0 – %1 kPa</source>
+            <translation>0 – %1 kPa</translation>
+        </message>
+        <message>
+            <source>Outlines</source>
+            <translation>Konturen</translation>
+        </message>
+        <message>
+            <source>Slice</source>
+            <translation>Schicht</translation>
+        </message>
+        <message>
+            <source>Vertices</source>
+            <translation>Punkte</translation>
+        </message>
+        <message>
+            <source>State</source>
+            <translation>Zustand</translation>
+        </message>
+        <message>
+            <source>Interpolate</source>
+            <translation>Interpolieren</translation>
+        </message>
+        <message>
+            <source>Accept all</source>
+            <translation>Alle annehmen</translation>
+        </message>
+        <message>
+            <source>Import outlines…</source>
+            <translation>Konturen importieren…</translation>
+        </message>
+        <message>
+            <source>RT Structure Set, contour file or mask (Ctrl+I)</source>
+            <translation>RT Structure Set, Konturdatei oder Maske (Strg+I)</translation>
+        </message>
+        <message>
+            <source>%1 px → %2 after mask, %3 cm², %4 ± %5 kPa (µ)</source>
+            <translation>%1 px → %2 nach Maske, %3 cm², %4 ± %5 kPa (µ)</translation>
+        </message>
+        <message>
+            <source>Inner region, %1 pixels off the edge</source>
+            <translation>Innenbereich, %1 Pixel vom Rand</translation>
+        </message>
+        <message>
+            <source>%1 ± %2 kPa</source>
+            <translation>%1 ± %2 kPa</translation>
+        </message>
+        <message>
+            <source>All slices: </source>
+            <translation>Alle Schichten: </translation>
+        </message>
+        <message>
+            <source>This slice: </source>
+            <translation>Diese Schicht: </translation>
+        </message>
+        <message>
+            <source>left out</source>
+            <translation>ausgenommen</translation>
+        </message>
+        <message>
+            <source>drawn</source>
+            <translation>gezeichnet</translation>
+        </message>
+        <message>
+            <source>interpolated</source>
+            <translation>interpoliert</translation>
+        </message>
+        <message>
+            <source>draft</source>
+            <translation>Entwurf</translation>
+        </message>
+        <message>
+            <source>empty</source>
+            <translation>leer</translation>
+        </message>
+        <message>
+            <source>no liver</source>
+            <translation>keine Leber</translation>
+        </message>
+        <message>
+            <source>no wave</source>
+            <translation>keine Welle</translation>
+        </message>
+        <message>
+            <source>%1 drawn, %2 interpolated, %3 empty between them.</source>
+            <translation>%1 gezeichnet, %2 interpoliert, %3 leere dazwischen.</translation>
+        </message>
+        <message>
+            <source>A run fills these by shape.</source>
+            <translation>Eine Rechnung füllt diese nach der Form.</translation>
+        </message>
+        <message>
+            <source>Undo %1 (%2)</source>
+            <translation>Rückgängig: %1 (%2)</translation>
+        </message>
+        <message>
+            <source>Redo %1 (%2)</source>
+            <translation>Wiederherstellen: %1 (%2)</translation>
+        </message>
+        <message>
+            <source>Close</source>
+            <translation>Schließen</translation>
+        </message>
+        <message>
+            <source>Drag to push the outline with the disc; [ and ] change its size.</source>
+            <translation>Ziehen schiebt die Kontur mit der Scheibe; [ und ] ändern ihre Größe.</translation>
+        </message>
+        <message>
+            <source>Click vertices on the MRI, or drag to draw freehand. Click an outline to edit it.</source>
+            <translation>Punkte auf der MRT anklicken, oder durch Ziehen freihändig zeichnen. Klick auf eine Kontur bearbeitet sie.</translation>
+        </message>
+        <message>
+            <source>Close on the first vertex, with a right click, a double click or Enter. Backspace takes the last vertex back, Esc parks a draft.</source>
+            <translation>Schließen am ersten Punkt, mit Rechtsklick, Doppelklick oder Eingabe. Rücktaste nimmt den letzten Punkt zurück, Esc legt einen Entwurf ab.</translation>
+        </message>
+        <message>
+            <source>Interpolated between drawn slices. Enter accepts it, correcting it accepts it too; an outline drawn on this slice replaces it.</source>
+            <translation>Zwischen gezeichneten Schichten interpoliert. Eingabe nimmt an, Korrigieren ebenso; eine hier gezeichnete Kontur ersetzt sie.</translation>
+        </message>
+        <message>
+            <source>Drag vertices to adjust; Ctrl+click adds or deletes one. Enter accepts.</source>
+            <translation>Punkte ziehen; Strg+Klick fügt einen ein oder löscht ihn. Eingabe nimmt an.</translation>
+        </message>
+        <message>
+            <source>Accepted. It can still be edited; click beside it to draw the next.</source>
+            <translation>Angenommen. Bleibt bearbeitbar; ein Klick daneben beginnt die nächste.</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::PlacementEditor</name>
+        <message>
+            <source>Hold here…</source>
+            <translation>Hier halten…</translation>
+        </message>
+        <message>
+            <source>Then click on the liver: a block that is held fixed</source>
+            <translation>Dann auf die Leber klicken: ein Block, der festgehalten wird</translation>
+        </message>
+        <message>
+            <source>Edge of the block that is held</source>
+            <translation>Kante des festgehaltenen Blocks</translation>
+        </message>
+        <message>
+            <source>Remove</source>
+            <translation>Entfernen</translation>
+        </message>
+        <message>
+            <source>Takes the chosen block away (Delete)</source>
+            <translation>Nimmt den gewählten Block weg (Entf)</translation>
+        </message>
+        <message>
+            <source>Bar as proposed</source>
+            <translation>Stab wie vorgeschlagen</translation>
+        </message>
+        <message>
+            <source>Back under the inferior right lobe, across the patient, hoisted towards anterior</source>
+            <translation>Zurück unter den unteren rechten Lappen, quer zum Patienten, nach vorn gezogen</translation>
+        </message>
+        <message>
+            <source>Building the model…</source>
+            <translation>Das Modell entsteht…</translation>
+        </message>
+        <message>
+            <source>held %1</source>
+            <translation>Halt %1</translation>
+        </message>
+        <message>
+            <source>%1 mm</source>
+            <translation>%1 mm</translation>
+        </message>
+        <message>
+            <source>hoist</source>
+            <translation>Zug</translation>
+        </message>
+        <message>
+            <source>bar</source>
+            <translation>Stab</translation>
+        </message>
+        <message>
+            <source>Bar at %1%2, ∅ %3 mm, length %4 mm; hoisted along (%5, %6, %7).</source>
+            <translation>Stab bei %1%2, ∅ %3 mm, Länge %4 mm; gezogen entlang (%5, %6, %7).</translation>
+        </message>
+        <message>
+            <source> (as proposed)</source>
+            <translation> (wie vorgeschlagen)</translation>
+        </message>
+        <message>
+            <source>Held %1: block of %2 mm at %3.</source>
+            <translation>Halt %1: Block von %2 mm bei %3.</translation>
+        </message>
+        <message>
+            <source>Drag the handles in 3-D or on the slice. Each drag can be undone.</source>
+            <translation>Die Griffe in 3-D oder auf der Schicht ziehen. Jeder Zug lässt sich zurücknehmen.</translation>
+        </message>
+        <message>
+            <source>move what is held</source>
+            <translation>Halt verschieben</translation>
+        </message>
+        <message>
+            <source>move the bar</source>
+            <translation>Stab verschieben</translation>
+        </message>
+        <message>
+            <source>turn the bar</source>
+            <translation>Stab drehen</translation>
+        </message>
+        <message>
+            <source>turn the hoist</source>
+            <translation>Zug drehen</translation>
+        </message>
+        <message>
+            <source>hold the liver</source>
+            <translation>Leber halten</translation>
+        </message>
+        <message>
+            <source>release the liver</source>
+            <translation>Leber loslassen</translation>
+        </message>
+        <message>
+            <source>bar as proposed</source>
+            <translation>Stab wie vorgeschlagen</translation>
+        </message>
+        <message>
+            <source>size of what is held</source>
+            <translation>Größe des Halts</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::RetractPage</name>
+        <message>
+            <source>Play the retraction</source>
+            <translation>Retraktion abspielen</translation>
+        </message>
+        <message>
+            <source>%1 %</source>
+            <translation>%1 %</translation>
+        </message>
+        <message>
+            <source>Retraction</source>
+            <translation>Retraktion</translation>
+        </message>
+        <message>
+            <source>Nathanson retractor</source>
+            <translation>Nathanson-Retraktor</translation>
+        </message>
+        <message>
+            <source>Diameter of the bar</source>
+            <translation>Durchmesser des Bügels</translation>
+        </message>
+        <message>
+            <source>Diameter</source>
+            <translation>Durchmesser</translation>
+        </message>
+        <message>
+            <source>Length of the bar that bears</source>
+            <translation>Tragende Länge des Bügels</translation>
+        </message>
+        <message>
+            <source>Length</source>
+            <translation>Länge</translation>
+        </message>
+        <message>
+            <source>Tissue wraps round the bar: how far its pressure reaches beyond it; 0 is a bare bar</source>
+            <translation>Gewebe legt sich um den Bügel: wie weit sein Druck über ihn hinausreicht; 0 ist ein blanker Bügel</translation>
+        </message>
+        <message>
+            <source>Wrap</source>
+            <translation>Umschlingung</translation>
+        </message>
+        <message>
+            <source>The liver's weight</source>
+            <translation>Gewicht der Leber</translation>
+        </message>
+        <message>
+            <source>Given force</source>
+            <translation>Gegebene Kraft</translation>
+        </message>
+        <message>
+            <source>Hoist</source>
+            <translation>Zug</translation>
+        </message>
+        <message>
+            <source>Hoisting force, towards anterior in the transverse plane</source>
+            <translation>Zugkraft nach vorn in der Transversalebene</translation>
+        </message>
+        <message>
+            <source>Force</source>
+            <translation>Kraft</translation>
+        </message>
+        <message>
+            <source>Abdomen</source>
+            <translation>Bauchraum</translation>
+        </message>
+        <message>
+            <source>Elastic resistance per area of the posterior and superior surface (Winkler foundation)</source>
+            <translation>Elastischer Widerstand je Fläche der hinteren und oberen Oberfläche (Winkler-Bettung)</translation>
+        </message>
+        <message>
+            <source>Resistance</source>
+            <translation>Widerstand</translation>
+        </message>
+        <message>
+            <source>Solution</source>
+            <translation>Lösung</translation>
+        </message>
+        <message>
+            <source>Run</source>
+            <translation>Rechnen</translation>
+        </message>
+        <message>
+            <source>Build, retract and compare (Ctrl+R)</source>
+            <translation>Aufbauen, retrahieren und vergleichen (Strg+R)</translation>
+        </message>
+        <message>
+            <source>Not run yet.</source>
+            <translation>Noch nicht gerechnet.</translation>
+        </message>
+        <message>
+            <source>%1: %2 iterations, residual %3
 %4 degrees of freedom
 Load %5 N, reaction %6 N
 Largest strain %7 %, rotation %8°</source>
-        <translation>%1: %2 Iterationen, Residuum %3
+            <translation>%1: %2 Iterationen, Residuum %3
 %4 Freiheitsgrade
 Last %5 N, Reaktion %6 N
 Größte Dehnung %7 %, Drehung %8°</translation>
-    </message>
-    <message>
-        <source>Linear theory can be trusted here.</source>
-        <translation>Der linearen Theorie ist hier zu trauen.</translation>
-    </message>
-</context>
- <context>
-  <name>glisson::panels::SegmentPage</name>
-  <message>
-   <source>Every slice is outlined or marked.</source>
-   <translation>Jede Schicht ist umfahren oder markiert.</translation>
-  </message>
-  <message>
-   <source>The views move together.</source>
-   <translation>Die Ansichten bewegen sich gemeinsam.</translation>
-  </message>
-  <message>
-   <source>The views move on their own.</source>
-   <translation>Jede Ansicht bewegt sich für sich.</translation>
-  </message>
-  <message>
-   <source>Copy to slices…</source>
-   <translation>Auf Schichten kopieren…</translation>
-  </message>
-  <message>
-   <source>Properties and statistics…</source>
-   <translation>Eigenschaften und Statistik…</translation>
-  </message>
-  <message>
-   <source>Copy to slices</source>
-   <translation>Auf Schichten kopieren</translation>
-  </message>
-  <message>
-   <source>Copy to all empty slices up to slice:</source>
-   <translation>Auf alle leeren Schichten kopieren bis Schicht:</translation>
-  </message>
-  <message>
-   <source>none</source>
-   <translation>keine</translation>
-  </message>
-  <message>
-   <source>%1 cm²</source>
-   <translation>%1 cm²</translation>
-  </message>
-  <message>
-   <source>%1 ± %2 kPa (µ), %3 of %4 pixels count</source>
-   <translation>%1 ± %2 kPa (µ), %3 von %4 Pixeln zählen</translation>
-  </message>
-  <message>
-   <source>left out</source>
-   <translation>ausgenommen</translation>
-  </message>
-  <message>
-   <source>accepted</source>
-   <translation>angenommen</translation>
-  </message>
-  <message>
-   <source>interpolated</source>
-   <translation>interpoliert</translation>
-  </message>
-  <message>
-   <source>draft</source>
-   <translation>Entwurf</translation>
-  </message>
-  <message>
-   <source>Outline on slice %1</source>
-   <translation>Kontur auf Schicht %1</translation>
-  </message>
-  <message>
-   <source>%1 vertices, %2
+        </message>
+        <message>
+            <source>Linear theory can be trusted here.</source>
+            <translation>Der linearen Theorie ist hier zu trauen.</translation>
+        </message>
+        <message>
+            <source>The retraction in 3-D</source>
+            <translation>Die Retraktion in 3-D</translation>
+        </message>
+        <message>
+            <source>MRI slice with bar and holds</source>
+            <translation>MRT-Schicht mit Stab und Halten</translation>
+        </message>
+        <message>
+            <source>MRI</source>
+            <translation>MRT</translation>
+        </message>
+        <message>
+            <source>Place by hand</source>
+            <translation>Von Hand setzen</translation>
+        </message>
+        <message>
+            <source>Shows the liver at rest: lay the bar, turn its hoist, hold the liver, in 3-D or on a slice</source>
+            <translation>Zeigt die Leber in Ruhe: den Stab legen, seinen Zug drehen, die Leber halten, in 3-D oder auf einer Schicht</translation>
+        </message>
+        <message>
+            <source>The same load for MRE and atlas.</source>
+            <translation>Dieselbe Last für MRE und Atlas.</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::SegmentPage</name>
+        <message>
+            <source>Every slice is outlined or marked.</source>
+            <translation>Jede Schicht ist umfahren oder markiert.</translation>
+        </message>
+        <message>
+            <source>The views move together.</source>
+            <translation>Die Ansichten bewegen sich gemeinsam.</translation>
+        </message>
+        <message>
+            <source>The views move on their own.</source>
+            <translation>Jede Ansicht bewegt sich für sich.</translation>
+        </message>
+        <message>
+            <source>Copy to slices…</source>
+            <translation>Auf Schichten kopieren…</translation>
+        </message>
+        <message>
+            <source>Properties and statistics…</source>
+            <translation>Eigenschaften und Statistik…</translation>
+        </message>
+        <message>
+            <source>Copy to slices</source>
+            <translation>Auf Schichten kopieren</translation>
+        </message>
+        <message>
+            <source>Copy to all empty slices up to slice:</source>
+            <translation>Auf alle leeren Schichten kopieren bis Schicht:</translation>
+        </message>
+        <message>
+            <source>none</source>
+            <translation>keine</translation>
+        </message>
+        <message>
+            <source>%1 cm²</source>
+            <translation>%1 cm²</translation>
+        </message>
+        <message>
+            <source>%1 ± %2 kPa (µ), %3 of %4 pixels count</source>
+            <translation>%1 ± %2 kPa (µ), %3 von %4 Pixeln zählen</translation>
+        </message>
+        <message>
+            <source>left out</source>
+            <translation>ausgenommen</translation>
+        </message>
+        <message>
+            <source>accepted</source>
+            <translation>angenommen</translation>
+        </message>
+        <message>
+            <source>interpolated</source>
+            <translation>interpoliert</translation>
+        </message>
+        <message>
+            <source>draft</source>
+            <translation>Entwurf</translation>
+        </message>
+        <message>
+            <source>Outline on slice %1</source>
+            <translation>Kontur auf Schicht %1</translation>
+        </message>
+        <message>
+            <source>%1 vertices, %2
 Area: %3
 Stiffness on this slice: %4
 
 Name of the region:</source>
-   <translation>%1 Punkte, %2
+            <translation>%1 Punkte, %2
 Fläche: %3
 Steifigkeit auf dieser Schicht: %4
 
 Name des Bereichs:</translation>
-  </message>
-  <message>
-   <source>Open images first (step Load).</source>
-   <translation>Zuerst Bilder öffnen (Schritt Laden).</translation>
-  </message>
-  <message>
-   <source>No elastogram is open.</source>
-   <translation>Kein Elastogramm ist geöffnet.</translation>
-  </message>
-  <message>
-   <source>MRI slice</source>
-   <translation>MRT-Schicht</translation>
-  </message>
-  <message>
-   <source>Elastography slice</source>
-   <translation>Elastographie-Schicht</translation>
-  </message>
-  <message>
-   <source>Window and level of the MRI (0 to 5)</source>
-   <translation>Fenster der MRT (0 bis 5)</translation>
-  </message>
-  <message>
-   <source>Auto</source>
-   <translation>Auto</translation>
-  </message>
-  <message>
-   <source>Soft</source>
-   <translation>Weich</translation>
-  </message>
-  <message>
-   <source>Liver</source>
-   <translation>Leber</translation>
-  </message>
-  <message>
-   <source>Vessels</source>
-   <translation>Gefäße</translation>
-  </message>
-  <message>
-   <source>Bright</source>
-   <translation>Hell</translation>
-  </message>
-  <message>
-   <source>Dark</source>
-   <translation>Dunkel</translation>
-  </message>
-  <message>
-   <source>Under the cursor: %1 kPa (µ)</source>
-   <translation>Unter dem Zeiger: %1 kPa (µ)</translation>
-  </message>
-  <message>
-   <source>MRI</source>
-   <translation>MRT</translation>
-  </message>
-  <message>
-   <source>no liver</source>
-   <translation>keine Leber</translation>
-  </message>
-  <message>
-   <source>no reliable wave</source>
-   <translation>keine verlässliche Welle</translation>
-  </message>
- </context>
- <context>
-  <name>glisson::session::Session</name>
-  <message>
-   <source>vertex</source>
-   <translation>Punkt</translation>
-  </message>
-  <message>
-   <source>Reading images</source>
-   <translation>Bilder werden gelesen</translation>
-  </message>
-  <message>
-   <source>Open a DICOM folder or the synthetic patient</source>
-   <translation>DICOM-Ordner oder synthetischen Patienten öffnen</translation>
-  </message>
-  <message>
-   <source>1 series</source>
-   <translation>1 Serie</translation>
-  </message>
-  <message>
-   <source>%1 series</source>
-   <translation>%1 Serien</translation>
-  </message>
-  <message>
-   <source>Needs images</source>
-   <translation>Braucht Bilder</translation>
-  </message>
-  <message>
-   <source>Outline the liver</source>
-   <translation>Leber umfahren</translation>
-  </message>
-  <message>
-   <source>1 outline</source>
-   <translation>1 Kontur</translation>
-  </message>
-  <message>
-   <source>%1 outlines</source>
-   <translation>%1 Konturen</translation>
-  </message>
-  <message>
-   <source>, %1 slices interpolated</source>
-   <translation>, %1 Schichten interpoliert</translation>
-  </message>
-  <message>
-   <source>, %1 slices between them empty</source>
-   <translation>, %1 Schichten dazwischen leer</translation>
-  </message>
-  <message>
-   <source>Needs an outline</source>
-   <translation>Braucht eine Kontur</translation>
-  </message>
-  <message>
-   <source>Running</source>
-   <translation>Rechnet</translation>
-  </message>
-  <message>
-   <source>Changed since the last run</source>
-   <translation>Seit der letzten Rechnung geändert</translation>
-  </message>
-  <message>
-   <source>Needs a run</source>
-   <translation>Braucht eine Rechnung</translation>
-  </message>
-  <message>
-   <source>Set and check</source>
-   <translation>Einstellen und prüfen</translation>
-  </message>
-  <message>
-   <source>Ready to run</source>
-   <translation>Bereit</translation>
-  </message>
-  <message>
-   <source>%1 cells</source>
-   <translation>%1 Zellen</translation>
-  </message>
-  <message>
-   <source>%1 DOFs</source>
-   <translation>%1 Freiheitsgrade</translation>
-  </message>
-  <message>
-   <source>Nothing was compared</source>
-   <translation>Nichts wurde verglichen</translation>
-  </message>
-  <message>
-   <source>mean %1 mm</source>
-   <translation>Mittel %1 mm</translation>
-  </message>
-  <message>
-   <source>No elastogram is open.</source>
-   <translation>Kein Elastogramm ist geöffnet.</translation>
-  </message>
-  <message>
-   <source>Draw an outline to measure.</source>
-   <translation>Zum Messen eine Kontur zeichnen.</translation>
-  </message>
-  <message>
-   <source>Cancelled.</source>
-   <translation>Abgebrochen.</translation>
-  </message>
-  <message>
-   <source>Opening</source>
-   <translation>Wird geöffnet</translation>
-  </message>
-  <message>
-   <source>Opening the synthetic patient</source>
-   <translation>Der synthetische Patient wird geöffnet</translation>
-  </message>
-  <message>
-   <source>Recovering</source>
-   <translation>Wird zurückgeholt</translation>
-  </message>
-  <message>
-   <source>Still at work; cancel it first.</source>
-   <translation>Es wird noch gerechnet; zuerst abbrechen.</translation>
-  </message>
-  <message>
-   <source>Outline the liver on two slices at least, and accept these outlines (Enter).</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>The outlines changed meanwhile; interpolate again.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>There is no empty slice between outlines that overlap.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>%1 slices were interpolated between %2 drawn ones. They count; accept, correct or redraw them.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Interpolating</source>
-   <translation>Wird interpoliert</translation>
-  </message>
-  <message>
-   <source>The outlines changed meanwhile; propose again.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Proposed, but it reaches the border of the image: it may have leaked. Correct it.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Proposed on every slice. Correct and accept; nothing is decided yet.</source>
-   <translation>Auf jeder Schicht vorgeschlagen. Korrigieren und annehmen; noch ist nichts entschieden.</translation>
-  </message>
-  <message>
-   <source>Proposing outlines</source>
-   <translation>Konturen werden vorgeschlagen</translation>
-  </message>
-  <message>
-   <source>Outline the liver and accept the outline (Enter) first.</source>
-   <translation>Zuerst die Leber umfahren und die Kontur annehmen (Eingabe).</translation>
-  </message>
-  <message>
-   <source>There is an outline on this slice: delete it before the slice is marked "no liver".</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>This slice lies between outlined ones and is filled by shape; it cannot be without liver.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>There is no outline on this slice to copy.</source>
-   <translation>Auf dieser Schicht ist keine Kontur zum Kopieren.</translation>
-  </message>
-  <message>
-   <source>Copied one outline.</source>
-   <translation>Eine Kontur kopiert.</translation>
-  </message>
-  <message>
-   <source>Copied %1 outlines.</source>
-   <translation>%1 Konturen kopiert.</translation>
-  </message>
-  <message>
-   <source>Copy an outline first (Ctrl+C).</source>
-   <translation>Zuerst eine Kontur kopieren (Strg+C).</translation>
-  </message>
-  <message>
-   <source>There is no empty slice there.</source>
-   <translation>Dort ist keine leere Schicht.</translation>
-  </message>
-  <message>
-   <source>Pasted on %1 slices. They count; accept, correct or redraw them.</source>
-   <translation>Auf %1 Schichten eingefügt. Sie zählen; annehmen, korrigieren oder neu zeichnen.</translation>
-  </message>
-  <message>
-   <source>Load a second reader's outlines first.</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Dice %1, Jaccard %2
+        </message>
+        <message>
+            <source>Open images first (step Load).</source>
+            <translation>Zuerst Bilder öffnen (Schritt Laden).</translation>
+        </message>
+        <message>
+            <source>No elastogram is open.</source>
+            <translation>Kein Elastogramm ist geöffnet.</translation>
+        </message>
+        <message>
+            <source>MRI slice</source>
+            <translation>MRT-Schicht</translation>
+        </message>
+        <message>
+            <source>Elastography slice</source>
+            <translation>Elastographie-Schicht</translation>
+        </message>
+        <message>
+            <source>Window and level of the MRI (0 to 5)</source>
+            <translation>Fenster der MRT (0 bis 5)</translation>
+        </message>
+        <message>
+            <source>Auto</source>
+            <translation>Auto</translation>
+        </message>
+        <message>
+            <source>Soft</source>
+            <translation>Weich</translation>
+        </message>
+        <message>
+            <source>Liver</source>
+            <translation>Leber</translation>
+        </message>
+        <message>
+            <source>Vessels</source>
+            <translation>Gefäße</translation>
+        </message>
+        <message>
+            <source>Bright</source>
+            <translation>Hell</translation>
+        </message>
+        <message>
+            <source>Dark</source>
+            <translation>Dunkel</translation>
+        </message>
+        <message>
+            <source>Under the cursor: %1 kPa (µ)</source>
+            <translation>Unter dem Zeiger: %1 kPa (µ)</translation>
+        </message>
+        <message>
+            <source>MRI</source>
+            <translation>MRT</translation>
+        </message>
+        <message>
+            <source>no liver</source>
+            <translation>keine Leber</translation>
+        </message>
+        <message>
+            <source>no reliable wave</source>
+            <translation>keine verlässliche Welle</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::StepRail</name>
+        <message>
+            <source>Load</source>
+            <translation>Laden</translation>
+        </message>
+        <message>
+            <source>Segment</source>
+            <translation>Segment</translation>
+        </message>
+        <message>
+            <source>Model</source>
+            <translation>Modell</translation>
+        </message>
+        <message>
+            <source>Retract</source>
+            <translation>Retraktion</translation>
+        </message>
+        <message>
+            <source>Compare</source>
+            <translation>Vergleich</translation>
+        </message>
+        <message>
+            <source>empty</source>
+            <translation>leer</translation>
+        </message>
+        <message>
+            <source>ready</source>
+            <translation>bereit</translation>
+        </message>
+        <message>
+            <source>running</source>
+            <translation>rechnet</translation>
+        </message>
+        <message>
+            <source>done</source>
+            <translation>fertig</translation>
+        </message>
+        <message>
+            <source>stale</source>
+            <translation>veraltet</translation>
+        </message>
+        <message>
+            <source>failed</source>
+            <translation>Fehler</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::session::ModelPreview</name>
+        <message>
+            <source>Outline the liver first (step Segment): the model appears here.</source>
+            <translation>Zuerst die Leber umranden (Schritt Segmentieren): hier erscheint das Modell.</translation>
+        </message>
+        <message>
+            <source>Open a patient first: the model appears here.</source>
+            <translation>Zuerst einen Patienten öffnen: hier erscheint das Modell.</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::session::Session</name>
+        <message>
+            <source>vertex</source>
+            <translation>Punkt</translation>
+        </message>
+        <message>
+            <source>Reading images</source>
+            <translation>Bilder werden gelesen</translation>
+        </message>
+        <message>
+            <source>Open a DICOM folder or the synthetic patient</source>
+            <translation>DICOM-Ordner oder synthetischen Patienten öffnen</translation>
+        </message>
+        <message>
+            <source>1 series</source>
+            <translation>1 Serie</translation>
+        </message>
+        <message>
+            <source>%1 series</source>
+            <translation>%1 Serien</translation>
+        </message>
+        <message>
+            <source>Needs images</source>
+            <translation>Braucht Bilder</translation>
+        </message>
+        <message>
+            <source>Outline the liver</source>
+            <translation>Leber umfahren</translation>
+        </message>
+        <message>
+            <source>1 outline</source>
+            <translation>1 Kontur</translation>
+        </message>
+        <message>
+            <source>%1 outlines</source>
+            <translation>%1 Konturen</translation>
+        </message>
+        <message>
+            <source>, %1 slices interpolated</source>
+            <translation>, %1 Schichten interpoliert</translation>
+        </message>
+        <message>
+            <source>, %1 slices between them empty</source>
+            <translation>, %1 Schichten dazwischen leer</translation>
+        </message>
+        <message>
+            <source>Needs an outline</source>
+            <translation>Braucht eine Kontur</translation>
+        </message>
+        <message>
+            <source>Running</source>
+            <translation>Rechnet</translation>
+        </message>
+        <message>
+            <source>Changed since the last run</source>
+            <translation>Seit der letzten Rechnung geändert</translation>
+        </message>
+        <message>
+            <source>Needs a run</source>
+            <translation>Braucht eine Rechnung</translation>
+        </message>
+        <message>
+            <source>Set and check</source>
+            <translation>Einstellen und prüfen</translation>
+        </message>
+        <message>
+            <source>Ready to run</source>
+            <translation>Bereit</translation>
+        </message>
+        <message>
+            <source>%1 cells</source>
+            <translation>%1 Zellen</translation>
+        </message>
+        <message>
+            <source>%1 DOFs</source>
+            <translation>%1 Freiheitsgrade</translation>
+        </message>
+        <message>
+            <source>Nothing was compared</source>
+            <translation>Nichts wurde verglichen</translation>
+        </message>
+        <message>
+            <source>mean %1 mm</source>
+            <translation>Mittel %1 mm</translation>
+        </message>
+        <message>
+            <source>No elastogram is open.</source>
+            <translation>Kein Elastogramm ist geöffnet.</translation>
+        </message>
+        <message>
+            <source>Draw an outline to measure.</source>
+            <translation>Zum Messen eine Kontur zeichnen.</translation>
+        </message>
+        <message>
+            <source>Cancelled.</source>
+            <translation>Abgebrochen.</translation>
+        </message>
+        <message>
+            <source>Opening</source>
+            <translation>Wird geöffnet</translation>
+        </message>
+        <message>
+            <source>Opening the synthetic patient</source>
+            <translation>Der synthetische Patient wird geöffnet</translation>
+        </message>
+        <message>
+            <source>Recovering</source>
+            <translation>Wird zurückgeholt</translation>
+        </message>
+        <message>
+            <source>Still at work; cancel it first.</source>
+            <translation>Es wird noch gerechnet; zuerst abbrechen.</translation>
+        </message>
+        <message>
+            <source>Outline the liver on two slices at least, and accept these outlines (Enter).</source>
+            <translation>Die Leber auf mindestens zwei Schichten umranden und diese Konturen annehmen (Enter).</translation>
+        </message>
+        <message>
+            <source>The outlines changed meanwhile; interpolate again.</source>
+            <translation>Die Konturen haben sich inzwischen geändert; noch einmal interpolieren.</translation>
+        </message>
+        <message>
+            <source>There is no empty slice between outlines that overlap.</source>
+            <translation>Zwischen überlappenden Konturen gibt es keine leere Schicht.</translation>
+        </message>
+        <message>
+            <source>%1 slices were interpolated between %2 drawn ones. They count; accept, correct or redraw them.</source>
+            <translation>%1 Schichten wurden zwischen %2 gezeichneten interpoliert. Sie zählen; annehmen, verbessern oder neu zeichnen.</translation>
+        </message>
+        <message>
+            <source>Interpolating</source>
+            <translation>Wird interpoliert</translation>
+        </message>
+        <message>
+            <source>The outlines changed meanwhile; propose again.</source>
+            <translation>Die Konturen haben sich inzwischen geändert; noch einmal vorschlagen.</translation>
+        </message>
+        <message>
+            <source>Proposed, but it reaches the border of the image: it may have leaked. Correct it.</source>
+            <translation>Vorgeschlagen, aber der Vorschlag reicht bis zum Bildrand: er kann ausgelaufen sein. Bitte verbessern.</translation>
+        </message>
+        <message>
+            <source>Proposed on every slice. Correct and accept; nothing is decided yet.</source>
+            <translation>Auf jeder Schicht vorgeschlagen. Korrigieren und annehmen; noch ist nichts entschieden.</translation>
+        </message>
+        <message>
+            <source>Proposing outlines</source>
+            <translation>Konturen werden vorgeschlagen</translation>
+        </message>
+        <message>
+            <source>Outline the liver and accept the outline (Enter) first.</source>
+            <translation>Zuerst die Leber umfahren und die Kontur annehmen (Eingabe).</translation>
+        </message>
+        <message>
+            <source>There is an outline on this slice: delete it before the slice is marked "no liver".</source>
+            <translation>Auf dieser Schicht liegt eine Kontur: erst löschen, dann „keine Leber“ markieren.</translation>
+        </message>
+        <message>
+            <source>This slice lies between outlined ones and is filled by shape; it cannot be without liver.</source>
+            <translation>Diese Schicht liegt zwischen umrandeten und wird nach der Form gefüllt; sie kann nicht ohne Leber sein.</translation>
+        </message>
+        <message>
+            <source>There is no outline on this slice to copy.</source>
+            <translation>Auf dieser Schicht ist keine Kontur zum Kopieren.</translation>
+        </message>
+        <message>
+            <source>Copied one outline.</source>
+            <translation>Eine Kontur kopiert.</translation>
+        </message>
+        <message>
+            <source>Copied %1 outlines.</source>
+            <translation>%1 Konturen kopiert.</translation>
+        </message>
+        <message>
+            <source>Copy an outline first (Ctrl+C).</source>
+            <translation>Zuerst eine Kontur kopieren (Strg+C).</translation>
+        </message>
+        <message>
+            <source>There is no empty slice there.</source>
+            <translation>Dort ist keine leere Schicht.</translation>
+        </message>
+        <message>
+            <source>Pasted on %1 slices. They count; accept, correct or redraw them.</source>
+            <translation>Auf %1 Schichten eingefügt. Sie zählen; annehmen, korrigieren oder neu zeichnen.</translation>
+        </message>
+        <message>
+            <source>Load a second reader's outlines first.</source>
+            <translation>Zuerst die Konturen eines zweiten Befunders laden.</translation>
+        </message>
+        <message>
+            <source>Dice %1, Jaccard %2
 Hausdorff %3 mm (95 %: %4 mm), mean distance %5 mm
 Volume %6 mL against %7 mL, difference %8 mL (%9 %)</source>
-   <translation type="unfinished" />
-  </message>
-  <message>
-   <source>Comparing readers</source>
-   <translation>Befunder werden verglichen</translation>
-  </message>
- </context>
- <context>
-  <name>glisson::views::SliceView</name>
-  <message>
-   <source> mm</source>
-   <translation> mm</translation>
-  </message>
-  <message>
-   <source>slice %1 / %2</source>
-   <translation>Schicht %1 / %2</translation>
-  </message>
- </context>
- <context>
-  <name>glisson::panels::StepRail</name>
-  <message>
-   <source>Load</source>
-   <translation>Laden</translation>
-  </message>
-  <message>
-   <source>Segment</source>
-   <translation>Segment</translation>
-  </message>
-  <message>
-   <source>Model</source>
-   <translation>Modell</translation>
-  </message>
-  <message>
-   <source>Retract</source>
-   <translation>Retraktion</translation>
-  </message>
-  <message>
-   <source>Compare</source>
-   <translation>Vergleich</translation>
-  </message>
-  <message>
-   <source>empty</source>
-   <translation>leer</translation>
-  </message>
-  <message>
-   <source>ready</source>
-   <translation>bereit</translation>
-  </message>
-  <message>
-   <source>running</source>
-   <translation>rechnet</translation>
-  </message>
-  <message>
-   <source>done</source>
-   <translation>fertig</translation>
-  </message>
-  <message>
-   <source>stale</source>
-   <translation>veraltet</translation>
-  </message>
-  <message>
-   <source>failed</source>
-   <translation>Fehler</translation>
-  </message>
- </context>
- <context>
-  <name>keymap</name>
-  <message>
-   <source>Tools</source>
-   <translation>Werkzeuge</translation>
-  </message>
-  <message>
-   <source>Outline</source>
-   <translation>Kontur</translation>
-  </message>
-  <message>
-   <source>Slices</source>
-   <translation>Schichten</translation>
-  </message>
-  <message>
-   <source>View</source>
-   <translation>Ansicht</translation>
-  </message>
-  <message>
-   <source>Polygon</source>
-   <translation>Polygon</translation>
-  </message>
-  <message>
-   <source>freehand</source>
-   <translation>freihand</translation>
-  </message>
-  <message>
-   <source>Freehand: letting go closes</source>
-   <translation>Freihand: Loslassen schließt</translation>
-  </message>
-  <message>
-   <source>Sculpt: push the outline with a disc</source>
-   <translation>Formen: Kontur mit einer Scheibe schieben</translation>
-  </message>
-  <message>
-   <source>Measure a distance</source>
-   <translation>Abstand messen</translation>
-  </message>
-  <message>
-   <source>Window and level by dragging</source>
-   <translation>Fenster durch Ziehen</translation>
-  </message>
-  <message>
-   <source>Close or accept</source>
-   <translation>Schließen oder annehmen</translation>
-  </message>
-  <message>
-   <source>Close and accept</source>
-   <translation>Schließen und annehmen</translation>
-  </message>
-  <message>
-   <source>Take the last vertex back; take a draft up again</source>
-   <translation>Letzten Punkt zurücknehmen; Entwurf wieder aufnehmen</translation>
-  </message>
-  <message>
-   <source>Delete the selected vertices or outline</source>
-   <translation>Gewählte Punkte oder Kontur löschen</translation>
-  </message>
-  <message>
-   <source>Split: halve the selected edges; two vertices apart: cut in two</source>
-   <translation>Teilen: gewählte Kanten halbieren; zwei entfernte Punkte: durchschneiden</translation>
-  </message>
-  <message>
-   <source>Trim: thin out the selection; two vertices apart: cut the smaller part off</source>
-   <translation>Stutzen: Auswahl ausdünnen; zwei entfernte Punkte: kleineren Teil abschneiden</translation>
-  </message>
-  <message>
-   <source>Park as draft; again: discard</source>
-   <translation>Als Entwurf ablegen; nochmals: verwerfen</translation>
-  </message>
-  <message>
-   <source>Undo</source>
-   <translation>Rückgängig</translation>
-  </message>
-  <message>
-   <source>Redo</source>
-   <translation>Wiederherstellen</translation>
-  </message>
-  <message>
-   <source>Select the whole outline</source>
-   <translation>Ganze Kontur wählen</translation>
-  </message>
-  <message>
-   <source>Select nothing</source>
-   <translation>Nichts wählen</translation>
-  </message>
-  <message>
-   <source>Copy the outline, or all of the slice</source>
-   <translation>Kontur kopieren, oder alle der Schicht</translation>
-  </message>
-  <message>
-   <source>Paste on this slice</source>
-   <translation>Auf dieser Schicht einfügen</translation>
-  </message>
-  <message>
-   <source>Paste on all empty slices between</source>
-   <translation>Auf allen leeren Schichten dazwischen einfügen</translation>
-  </message>
-  <message>
-   <source>First slice</source>
-   <translation>Erste Schicht</translation>
-  </message>
-  <message>
-   <source>Last slice</source>
-   <translation>Letzte Schicht</translation>
-  </message>
-  <message>
-   <source>Next slice</source>
-   <translation>Nächste Schicht</translation>
-  </message>
-  <message>
-   <source>Slice before</source>
-   <translation>Vorige Schicht</translation>
-  </message>
-  <message>
-   <source>Next slice that is still to be done</source>
-   <translation>Nächste offene Schicht</translation>
-  </message>
-  <message>
-   <source>Mark: no liver on this slice</source>
-   <translation>Markieren: keine Leber auf dieser Schicht</translation>
-  </message>
-  <message>
-   <source>Mark: no reliable wave on this slice</source>
-   <translation>Markieren: keine verlässliche Welle</translation>
-  </message>
-  <message>
-   <source>This outline counts</source>
-   <translation>Diese Kontur zählt</translation>
-  </message>
-  <message>
-   <source>This outline is left out (vessel, cyst)</source>
-   <translation>Diese Kontur ist ausgenommen (Gefäß, Zyste)</translation>
-  </message>
-  <message>
-   <source>Inner region: measure away from the edge</source>
-   <translation>Innenbereich: abseits des Randes messen</translation>
-  </message>
-  <message>
-   <source>Less erosion; sculpting: smaller disc</source>
-   <translation>Weniger Erosion; Formen: kleinere Scheibe</translation>
-  </message>
-  <message>
-   <source>More erosion; sculpting: larger disc</source>
-   <translation>Mehr Erosion; Formen: größere Scheibe</translation>
-  </message>
-  <message>
-   <source>Hold to hide all overlays</source>
-   <translation>Gehalten: Überlagerungen verbergen</translation>
-  </message>
-  <message>
-   <source>Window from the image</source>
-   <translation>Fenster aus dem Bild</translation>
-  </message>
-  <message>
-   <source>Window: soft (widest)</source>
-   <translation>Fenster: weich (am breitesten)</translation>
-  </message>
-  <message>
-   <source>Window: liver</source>
-   <translation>Fenster: Leber</translation>
-  </message>
-  <message>
-   <source>Window: vessels</source>
-   <translation>Fenster: Gefäße</translation>
-  </message>
-  <message>
-   <source>Window: bright</source>
-   <translation>Fenster: hell</translation>
-  </message>
-  <message>
-   <source>Window: dark</source>
-   <translation>Fenster: dunkel</translation>
-  </message>
-  <message>
-   <source>Link slice, zoom and place of the views</source>
-   <translation>Schicht, Zoom und Ort der Ansichten koppeln</translation>
-  </message>
-  <message>
-   <source>Stiffness scale 0–8 or 0–20 kPa</source>
-   <translation>Steifigkeit 0–8 oder 0–20 kPa</translation>
-  </message>
-  <message>
-   <source>Interpolate between outlined slices</source>
-   <translation>Zwischen umfahrenen Schichten interpolieren</translation>
-  </message>
-  <message>
-   <source>Accept all interpolated outlines</source>
-   <translation>Alle interpolierten Konturen annehmen</translation>
-  </message>
-  <message>
-   <source>Propose an outline: grow a region from under the mouse</source>
-   <translation>Kontur vorschlagen: Bereich unter der Maus wachsen lassen</translation>
-  </message>
-  <message>
-   <source>Compare with a second reader's outlines</source>
-   <translation>Mit einem zweiten Befunder vergleichen</translation>
-  </message>
-  <message>
-   <source>Play or stop the wave</source>
-   <translation>Welle abspielen oder anhalten</translation>
-  </message>
-  <message>
-   <source>This sheet</source>
-   <translation>Diese Übersicht</translation>
-  </message>
-  <message>
-   <source>Left click</source>
-   <translation>Linksklick</translation>
-  </message>
-  <message>
-   <source>first vertex</source>
-   <translation>erster Punkt</translation>
-  </message>
-  <message>
-   <source>Left drag</source>
-   <translation>Links ziehen</translation>
-  </message>
-  <message>
-   <source>Double-click</source>
-   <translation>Doppelklick</translation>
-  </message>
-  <message>
-   <source>accept; accepted: properties and statistics</source>
-   <translation>annehmen; angenommen: Eigenschaften und Statistik</translation>
-  </message>
-  <message>
-   <source>Right click</source>
-   <translation>Rechtsklick</translation>
-  </message>
-  <message>
-   <source>menu</source>
-   <translation>Menü</translation>
-  </message>
-  <message>
-   <source>close</source>
-   <translation>schließen</translation>
-  </message>
-  <message>
-   <source>Right drag, Ctrl+wheel</source>
-   <translation>Rechts ziehen, Strg+Rad</translation>
-  </message>
-  <message>
-   <source>zoom</source>
-   <translation>Zoom</translation>
-  </message>
-  <message>
-   <source>Middle drag, Space+drag</source>
-   <translation>Mitte ziehen, Leertaste+Ziehen</translation>
-  </message>
-  <message>
-   <source>pan</source>
-   <translation>verschieben</translation>
-  </message>
-  <message>
-   <source>Wheel</source>
-   <translation>Rad</translation>
-  </message>
-  <message>
-   <source>slice</source>
-   <translation>Schicht</translation>
-  </message>
-  <message>
-   <source>Alt+drag</source>
-   <translation>Alt+Ziehen</translation>
-  </message>
-  <message>
-   <source>window and level</source>
-   <translation>Fenster</translation>
-  </message>
-  <message>
-   <source>Ctrl+click</source>
-   <translation>Strg+Klick</translation>
-  </message>
- </context>
-<context>
-    <name>glisson::panels::LiveBar</name>
-    <message>
-        <source>Move live</source>
-        <translation>Live bewegen</translation>
-    </message>
-    <message>
-        <source>Drag the retractor in the picture, or use the sliders: both livers follow</source>
-        <translation>Den Retraktor im Bild ziehen oder die Regler nehmen: beide Lebern folgen</translation>
-    </message>
-    <message>
-        <source>right – left</source>
-        <translation>rechts – links</translation>
-    </message>
-    <message>
-        <source>front – back</source>
-        <translation>vorn – hinten</translation>
-    </message>
-    <message>
-        <source>down – up</source>
-        <translation>unten – oben</translation>
-    </message>
-    <message>
-        <source>Tool, %1, mm</source>
-        <translation>Werkzeug, %1, mm</translation>
-    </message>
-    <message>
-        <source>As run</source>
-        <translation>Wie gerechnet</translation>
-    </message>
-    <message>
-        <source>Back to the force of the run</source>
-        <translation>Zurück zur Kraft des Laufs</translation>
-    </message>
-    <message>
-        <source>Run the retraction; then the retractor can be moved by hand.</source>
-        <translation>Retraktion rechnen; dann lässt sich der Retraktor von Hand bewegen.</translation>
-    </message>
-    <message>
-        <source>Preparing to move live: %1 %</source>
-        <translation>Live-Bewegung wird vorbereitet: %1 %</translation>
-    </message>
-    <message>
-        <source>The retractor cannot be moved live. %1</source>
-        <translation>Der Retraktor lässt sich nicht live bewegen. %1</translation>
-    </message>
-    <message>
-        <source>Ready: &quot;Move live&quot; puts the retractor into your hand.</source>
-        <translation>Bereit: „Live bewegen“ gibt den Retraktor in die Hand.</translation>
-    </message>
-    <message>
-        <source>%1 mm</source>
-        <translation>%1 mm</translation>
-    </message>
-    <message>
-        <source>Tool %1 mm from rest with %2 N (the run: %3 N). Difference under the bar, weighted by its pressure, %4 mm</source>
-        <translation>Werkzeug %1 mm aus der Ruhe mit %2 N (der Lauf: %3 N). Unterschied unter dem Bügel, nach seinem Druck gewichtet, %4 mm</translation>
-    </message>
-    <message>
-        <source>; vessels: mean %1, largest %2 mm, %3 of %4 landmarks at 5 mm or more</source>
-        <translation>; Gefäße: Mittel %1, größter %2 mm, %3 von %4 Punkten mit 5 mm oder mehr</translation>
-    </message>
-    <message>
-        <source>Linear theory, far beyond the force of the run: shapes are not to be trusted.</source>
-        <translation>Lineare Theorie, weit über der Kraft des Laufs: den Formen ist nicht zu trauen.</translation>
-    </message>
-    <message>
-        <source>Simulation %1 ms a frame (%2 frames/s possible).</source>
-        <translation>Simulation %1 ms je Bild (%2 Bilder/s möglich).</translation>
-    </message>
-    <message>
-        <source>Simulation %1 ms a frame (%2 frames/s possible); on screen %3 pictures/s.</source>
-        <translation>Simulation %1 ms je Bild (%2 Bilder/s möglich); am Schirm %3 Bilder/s.</translation>
-    </message>
-</context>
+            <translation>Dice %1, Jaccard %2
+Hausdorff %3 mm (95 %: %4 mm), mittlerer Abstand %5 mm
+Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
+        </message>
+        <message>
+            <source>Comparing readers</source>
+            <translation>Befunder werden verglichen</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::views::SceneView</name>
+        <message>
+            <source>%1 mm</source>
+            <translation>%1 mm</translation>
+        </message>
+        <message>
+            <source>shear modulus µ (kPa)</source>
+            <translation>Schubmodul µ (kPa)</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::views::SliceView</name>
+        <message>
+            <source> mm</source>
+            <translation> mm</translation>
+        </message>
+        <message>
+            <source>slice %1 / %2</source>
+            <translation>Schicht %1 / %2</translation>
+        </message>
+    </context>
+    <context>
+        <name>keymap</name>
+        <message>
+            <source>Tools</source>
+            <translation>Werkzeuge</translation>
+        </message>
+        <message>
+            <source>Outline</source>
+            <translation>Kontur</translation>
+        </message>
+        <message>
+            <source>Slices</source>
+            <translation>Schichten</translation>
+        </message>
+        <message>
+            <source>View</source>
+            <translation>Ansicht</translation>
+        </message>
+        <message>
+            <source>Polygon</source>
+            <translation>Polygon</translation>
+        </message>
+        <message>
+            <source>freehand</source>
+            <translation>freihand</translation>
+        </message>
+        <message>
+            <source>Freehand: letting go closes</source>
+            <translation>Freihand: Loslassen schließt</translation>
+        </message>
+        <message>
+            <source>Sculpt: push the outline with a disc</source>
+            <translation>Formen: Kontur mit einer Scheibe schieben</translation>
+        </message>
+        <message>
+            <source>Measure a distance</source>
+            <translation>Abstand messen</translation>
+        </message>
+        <message>
+            <source>Window and level by dragging</source>
+            <translation>Fenster durch Ziehen</translation>
+        </message>
+        <message>
+            <source>Close or accept</source>
+            <translation>Schließen oder annehmen</translation>
+        </message>
+        <message>
+            <source>Close and accept</source>
+            <translation>Schließen und annehmen</translation>
+        </message>
+        <message>
+            <source>Take the last vertex back; take a draft up again</source>
+            <translation>Letzten Punkt zurücknehmen; Entwurf wieder aufnehmen</translation>
+        </message>
+        <message>
+            <source>Delete the selected vertices or outline</source>
+            <translation>Gewählte Punkte oder Kontur löschen</translation>
+        </message>
+        <message>
+            <source>Split: halve the selected edges; two vertices apart: cut in two</source>
+            <translation>Teilen: gewählte Kanten halbieren; zwei entfernte Punkte: durchschneiden</translation>
+        </message>
+        <message>
+            <source>Trim: thin out the selection; two vertices apart: cut the smaller part off</source>
+            <translation>Stutzen: Auswahl ausdünnen; zwei entfernte Punkte: kleineren Teil abschneiden</translation>
+        </message>
+        <message>
+            <source>Park as draft; again: discard</source>
+            <translation>Als Entwurf ablegen; nochmals: verwerfen</translation>
+        </message>
+        <message>
+            <source>Undo</source>
+            <translation>Rückgängig</translation>
+        </message>
+        <message>
+            <source>Redo</source>
+            <translation>Wiederherstellen</translation>
+        </message>
+        <message>
+            <source>Select the whole outline</source>
+            <translation>Ganze Kontur wählen</translation>
+        </message>
+        <message>
+            <source>Select nothing</source>
+            <translation>Nichts wählen</translation>
+        </message>
+        <message>
+            <source>Copy the outline, or all of the slice</source>
+            <translation>Kontur kopieren, oder alle der Schicht</translation>
+        </message>
+        <message>
+            <source>Paste on this slice</source>
+            <translation>Auf dieser Schicht einfügen</translation>
+        </message>
+        <message>
+            <source>Paste on all empty slices between</source>
+            <translation>Auf allen leeren Schichten dazwischen einfügen</translation>
+        </message>
+        <message>
+            <source>First slice</source>
+            <translation>Erste Schicht</translation>
+        </message>
+        <message>
+            <source>Last slice</source>
+            <translation>Letzte Schicht</translation>
+        </message>
+        <message>
+            <source>Next slice</source>
+            <translation>Nächste Schicht</translation>
+        </message>
+        <message>
+            <source>Slice before</source>
+            <translation>Vorige Schicht</translation>
+        </message>
+        <message>
+            <source>Next slice that is still to be done</source>
+            <translation>Nächste offene Schicht</translation>
+        </message>
+        <message>
+            <source>Mark: no liver on this slice</source>
+            <translation>Markieren: keine Leber auf dieser Schicht</translation>
+        </message>
+        <message>
+            <source>Mark: no reliable wave on this slice</source>
+            <translation>Markieren: keine verlässliche Welle</translation>
+        </message>
+        <message>
+            <source>This outline counts</source>
+            <translation>Diese Kontur zählt</translation>
+        </message>
+        <message>
+            <source>This outline is left out (vessel, cyst)</source>
+            <translation>Diese Kontur ist ausgenommen (Gefäß, Zyste)</translation>
+        </message>
+        <message>
+            <source>Inner region: measure away from the edge</source>
+            <translation>Innenbereich: abseits des Randes messen</translation>
+        </message>
+        <message>
+            <source>Less erosion; sculpting: smaller disc</source>
+            <translation>Weniger Erosion; Formen: kleinere Scheibe</translation>
+        </message>
+        <message>
+            <source>More erosion; sculpting: larger disc</source>
+            <translation>Mehr Erosion; Formen: größere Scheibe</translation>
+        </message>
+        <message>
+            <source>Hold to hide all overlays</source>
+            <translation>Gehalten: Überlagerungen verbergen</translation>
+        </message>
+        <message>
+            <source>Window from the image</source>
+            <translation>Fenster aus dem Bild</translation>
+        </message>
+        <message>
+            <source>Window: soft (widest)</source>
+            <translation>Fenster: weich (am breitesten)</translation>
+        </message>
+        <message>
+            <source>Window: liver</source>
+            <translation>Fenster: Leber</translation>
+        </message>
+        <message>
+            <source>Window: vessels</source>
+            <translation>Fenster: Gefäße</translation>
+        </message>
+        <message>
+            <source>Window: bright</source>
+            <translation>Fenster: hell</translation>
+        </message>
+        <message>
+            <source>Window: dark</source>
+            <translation>Fenster: dunkel</translation>
+        </message>
+        <message>
+            <source>Link slice, zoom and place of the views</source>
+            <translation>Schicht, Zoom und Ort der Ansichten koppeln</translation>
+        </message>
+        <message>
+            <source>Stiffness scale 0–8 or 0–20 kPa</source>
+            <translation>Steifigkeit 0–8 oder 0–20 kPa</translation>
+        </message>
+        <message>
+            <source>Interpolate between outlined slices</source>
+            <translation>Zwischen umfahrenen Schichten interpolieren</translation>
+        </message>
+        <message>
+            <source>Accept all interpolated outlines</source>
+            <translation>Alle interpolierten Konturen annehmen</translation>
+        </message>
+        <message>
+            <source>Propose an outline: grow a region from under the mouse</source>
+            <translation>Kontur vorschlagen: Bereich unter der Maus wachsen lassen</translation>
+        </message>
+        <message>
+            <source>Compare with a second reader's outlines</source>
+            <translation>Mit einem zweiten Befunder vergleichen</translation>
+        </message>
+        <message>
+            <source>Play or stop the wave</source>
+            <translation>Welle abspielen oder anhalten</translation>
+        </message>
+        <message>
+            <source>This sheet</source>
+            <translation>Diese Übersicht</translation>
+        </message>
+        <message>
+            <source>Left click</source>
+            <translation>Linksklick</translation>
+        </message>
+        <message>
+            <source>first vertex</source>
+            <translation>erster Punkt</translation>
+        </message>
+        <message>
+            <source>Left drag</source>
+            <translation>Links ziehen</translation>
+        </message>
+        <message>
+            <source>Double-click</source>
+            <translation>Doppelklick</translation>
+        </message>
+        <message>
+            <source>accept; accepted: properties and statistics</source>
+            <translation>annehmen; angenommen: Eigenschaften und Statistik</translation>
+        </message>
+        <message>
+            <source>Right click</source>
+            <translation>Rechtsklick</translation>
+        </message>
+        <message>
+            <source>menu</source>
+            <translation>Menü</translation>
+        </message>
+        <message>
+            <source>close</source>
+            <translation>schließen</translation>
+        </message>
+        <message>
+            <source>Right drag, Ctrl+wheel</source>
+            <translation>Rechts ziehen, Strg+Rad</translation>
+        </message>
+        <message>
+            <source>zoom</source>
+            <translation>Zoom</translation>
+        </message>
+        <message>
+            <source>Middle drag, Space+drag</source>
+            <translation>Mitte ziehen, Leertaste+Ziehen</translation>
+        </message>
+        <message>
+            <source>pan</source>
+            <translation>verschieben</translation>
+        </message>
+        <message>
+            <source>Wheel</source>
+            <translation>Rad</translation>
+        </message>
+        <message>
+            <source>slice</source>
+            <translation>Schicht</translation>
+        </message>
+        <message>
+            <source>Alt+drag</source>
+            <translation>Alt+Ziehen</translation>
+        </message>
+        <message>
+            <source>window and level</source>
+            <translation>Fenster</translation>
+        </message>
+        <message>
+            <source>Ctrl+click</source>
+            <translation>Strg+Klick</translation>
+        </message>
+        <message>
+            <source>Nudge down by 0.1 pixel; nothing selected: slice before</source>
+            <translation>0,1 Pixel nach unten; nichts gewählt: vorige Schicht</translation>
+        </message>
+        <message>
+            <source>Nudge down by 1 pixel</source>
+            <translation>1 Pixel nach unten</translation>
+        </message>
+        <message>
+            <source>Nudge left by 0.1 pixel</source>
+            <translation>0,1 Pixel nach links</translation>
+        </message>
+        <message>
+            <source>Nudge left by 1 pixel</source>
+            <translation>1 Pixel nach links</translation>
+        </message>
+        <message>
+            <source>Nudge right by 0.1 pixel</source>
+            <translation>0,1 Pixel nach rechts</translation>
+        </message>
+        <message>
+            <source>Nudge right by 1 pixel</source>
+            <translation>1 Pixel nach rechts</translation>
+        </message>
+        <message>
+            <source>Nudge up by 0.1 pixel; nothing selected: next slice</source>
+            <translation>0,1 Pixel nach oben; nichts gewählt: nächste Schicht</translation>
+        </message>
+        <message>
+            <source>Nudge up by 1 pixel</source>
+            <translation>1 Pixel nach oben</translation>
+        </message>
+        <message>
+            <source>Shift+click</source>
+            <translation>Umschalt+Klick</translation>
+        </message>
+        <message>
+            <source>add last vertex and close</source>
+            <translation>letzten Punkt setzen und schließen</translation>
+        </message>
+        <message>
+            <source>add to or take from the selection</source>
+            <translation>zur Auswahl dazu oder davon weg</translation>
+        </message>
+        <message>
+            <source>add vertex; on the first one: close</source>
+            <translation>Punkt setzen; auf dem ersten: schließen</translation>
+        </message>
+        <message>
+            <source>freehand, mixes with clicks</source>
+            <translation>Freihand, mit Klicks mischbar</translation>
+        </message>
+        <message>
+            <source>inside an outline: start a hole</source>
+            <translation>in einer Kontur: ein Loch beginnen</translation>
+        </message>
+        <message>
+            <source>menu: delete, split, copy to slices, kind</source>
+            <translation>Menü: löschen, teilen, auf Schichten kopieren, Art</translation>
+        </message>
+        <message>
+            <source>move the selection; on empty: box select</source>
+            <translation>Auswahl verschieben; im Leeren: Rahmen aufziehen</translation>
+        </message>
+        <message>
+            <source>on an edge: insert a vertex; on a vertex: delete it</source>
+            <translation>auf einer Kante: Punkt einfügen; auf einem Punkt: löschen</translation>
+        </message>
+        <message>
+            <source>on an outline: properties and statistics</source>
+            <translation>auf einer Kontur: Eigenschaften und Statistik</translation>
+        </message>
+        <message>
+            <source>pan, the drawing is kept</source>
+            <translation>verschieben, die Zeichnung bleibt</translation>
+        </message>
+        <message>
+            <source>select vertex, edge or outline; on empty: clear</source>
+            <translation>Punkt, Kante oder Kontur wählen; im Leeren: Auswahl aufheben</translation>
+        </message>
+        <message>
+            <source>slice; the drawing is parked as a draft</source>
+            <translation>Schicht; die Zeichnung wird als Entwurf abgelegt</translation>
+        </message>
+        <message>
+            <source>steps of 45°</source>
+            <translation>Schritte von 45°</translation>
+        </message>
+        <message>
+            <source>window and level, the drawing is kept</source>
+            <translation>Fensterung, die Zeichnung bleibt</translation>
+        </message>
+        <message>
+            <source>zoom, the drawing is kept</source>
+            <translation>Zoom, die Zeichnung bleibt</translation>
+        </message>
+    </context>
+    <context>
+        <name>commands</name>
+        <message>
+            <source>accept all interpolated outlines</source>
+            <translation>alle interpolierten Konturen annehmen</translation>
+        </message>
+        <message>
+            <source>accept outline</source>
+            <translation>Kontur annehmen</translation>
+        </message>
+        <message>
+            <source>add draft outline</source>
+            <translation>Entwurf hinzufügen</translation>
+        </message>
+        <message>
+            <source>add outline</source>
+            <translation>Kontur hinzufügen</translation>
+        </message>
+        <message>
+            <source>cut outline</source>
+            <translation>Kontur schneiden</translation>
+        </message>
+        <message>
+            <source>delete outline</source>
+            <translation>Kontur löschen</translation>
+        </message>
+        <message>
+            <source>delete vertices</source>
+            <translation>Punkte löschen</translation>
+        </message>
+        <message>
+            <source>exclude outline</source>
+            <translation>Kontur auslassen</translation>
+        </message>
+        <message>
+            <source>import outlines</source>
+            <translation>Konturen einlesen</translation>
+        </message>
+        <message>
+            <source>include outline</source>
+            <translation>Kontur zählen</translation>
+        </message>
+        <message>
+            <source>insert vertex</source>
+            <translation>Punkt einfügen</translation>
+        </message>
+        <message>
+            <source>interpolate between slices</source>
+            <translation>zwischen Schichten interpolieren</translation>
+        </message>
+        <message>
+            <source>make outline a draft</source>
+            <translation>Kontur zum Entwurf machen</translation>
+        </message>
+        <message>
+            <source>mark slice</source>
+            <translation>Schicht markieren</translation>
+        </message>
+        <message>
+            <source>move vertices</source>
+            <translation>Punkte verschieben</translation>
+        </message>
+        <message>
+            <source>nudge</source>
+            <translation>verrücken</translation>
+        </message>
+        <message>
+            <source>paste on empty slices</source>
+            <translation>auf leere Schichten einfügen</translation>
+        </message>
+        <message>
+            <source>paste outline</source>
+            <translation>Kontur einfügen</translation>
+        </message>
+        <message>
+            <source>propose outlines</source>
+            <translation>Konturen vorschlagen</translation>
+        </message>
+        <message>
+            <source>rename region</source>
+            <translation>Region umbenennen</translation>
+        </message>
+        <message>
+            <source>sculpt</source>
+            <translation>formen</translation>
+        </message>
+        <message>
+            <source>unmark slice</source>
+            <translation>Markierung aufheben</translation>
+        </message>
+    </context>
 </TS>

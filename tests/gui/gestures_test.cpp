@@ -1,125 +1,34 @@
-// Gestures and keys through real events, on one window with the synthetic patient; random events; stalls; recovery.
-#include <QApplication>
+// Gestures and keys through real events, on one window with the synthetic patient; stalls; recovery.
 #include <QDialog>
 #include <QMenu>
-#include <QMouseEvent>
 #include <QPushButton>
-#include <QSettings>
-#include <QSignalSpy>
-#include <QTest>
 #include <QTreeWidget>
-#include <QWheelEvent>
 #include <cmath>
 
-#include "base/random.h"
 #include "panels/image_layers.h"
-#include "panels/main_window.h"
-#include "panels/segment_page.h"
-#include "panels/theme.h"
 #include "pipeline/sources.h"
-#include "roi/contour_stack.h"
+#include "roi/agreement.h"
 #include "session/stall_monitor.h"
-#include "support/support.h"
+#include "support/same_outlines.h"
 #include "tools/keymap.h"
-#include "views/slice_view.h"
+#include "window_bench.h"
 
-using glisson::Random;
-using glisson::panels::ImageLayers;
-using glisson::panels::MainWindow;
 using glisson::panels::SegmentPage;
 using glisson::session::Session;
 using glisson::session::StallMonitor;
+using glisson::test::drag;
+using glisson::test::mouse;
+using glisson::test::same;
+using glisson::test::wait_ms;
+using glisson::test::wheel;
 using glisson::tools::ToolState;
-using glisson::views::SliceView;
 
-namespace {
-
-constexpr int wait_ms = 300000;
-
-bool same(const glisson::roi::ContourStack& a, const glisson::roi::ContourStack& b) {
-  if (a.polygons.size() != b.polygons.size()) return false;
-  for (std::size_t p = 0; p < a.polygons.size(); ++p)
-    if (a.polygons[p].points_lps_mm.cols() != b.polygons[p].points_lps_mm.cols() ||
-        a.polygons[p].points_lps_mm != b.polygons[p].points_lps_mm || a.polygons[p].state != b.polygons[p].state)
-      return false;
-  return true;
-}
-
-void wheel(QWidget* on, const QPoint& at, int delta, Qt::KeyboardModifiers modifiers = {}) {
-  QWheelEvent event(at, on->mapToGlobal(at), {}, {0, delta}, Qt::NoButton, modifiers, Qt::NoScrollPhase, false);
-  QApplication::sendEvent(on, &event);
-}
-
-void mouse(QWidget* on, QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::MouseButtons buttons,
-           Qt::KeyboardModifiers modifiers = {}) {
-  QMouseEvent event(type, at, on->mapToGlobal(at), button, buttons, modifiers);
-  QApplication::sendEvent(on, &event);
-}
-
-void drag(QWidget* on, const QPoint& from, const QPoint& to, Qt::MouseButton button = Qt::LeftButton,
-          Qt::KeyboardModifiers modifiers = {}) {
-  mouse(on, QEvent::MouseButtonPress, from, button, button, modifiers);
-  for (int s = 1; s <= 8; ++s)
-    mouse(on, QEvent::MouseMove, from + (to - from) * s / 8, Qt::NoButton, button, modifiers);
-  mouse(on, QEvent::MouseButtonRelease, to, button, Qt::NoButton, modifiers);
-}
-
-}  // namespace
-
-class Gestures : public QObject {
+class Gestures : public QObject, private glisson::test::WindowBench {
   Q_OBJECT
-
- private:
-  glisson::test::TemporaryFolder folder_;
-  std::unique_ptr<MainWindow> window_;
-
-  Session& session() { return window_->session(); }
-  SliceView* mri() { return window_->findChild<SliceView*>("mriView"); }
-  SliceView* mre() { return window_->findChild<SliceView*>("mreView"); }
-  SegmentPage* page() { return window_->findChild<SegmentPage*>(); }
-  QString path(const char* name) { return QString::fromStdString((folder_ / name).string()); }
-  const auto& polygons() { return session().contours().polygons; }
-  void clean() {
-    while (session().canUndo()) session().undo();
-    session().tool().deselect();
-  }
-  /// Where the elastogram is trusted most, in pixels of the MRI view: well inside the liver.
-  QPoint liver() {
-    const auto& map = *session().images().stiffness;
-    const auto& grid = map.values_kPa.grid;
-    const int k = grid.size.z() / 2;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double n = 0.0;
-    for (int j = 0; j < grid.size.y(); ++j)
-      for (int i = 0; i < grid.size.x(); ++i)
-        if (map.confidence->at(i, j, k) >= 0.95F) sum += grid.indexToLps({1.0 * i, 1.0 * j, 1.0 * k}), n += 1.0;
-    mri()->showPoint(sum / n);
-    const Eigen::Vector2d px = mri()->plane().toPixel(sum / n);
-    return QPointF(px.x(), px.y()).toPoint();
-  }
-  void square(int x, int y, int side) {
-    for (const QPoint at : {QPoint(x, y), QPoint(x + side, y), QPoint(x + side, y + side), QPoint(x, y + side)})
-      QTest::mouseClick(mri(), Qt::LeftButton, {}, at);
-    QTest::keyClick(mri(), Qt::Key_Return);
-  }
-  std::unique_ptr<MainWindow> open(const QString& journals) {
-    auto window = std::make_unique<MainWindow>();
-    window->session().setWorkFolder(path("work"));
-    window->session().setJournalFolder(journals);
-    window->show();
-    return window;
-  }
 
  private slots:
   void initTestCase() {
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, path("settings"));
-    glisson::panels::applyTheme(glisson::panels::Theme::Dark);
-    window_ = open(path("journals"));
-    QVERIFY(QTest::qWaitForWindowExposed(window_.get()));
-    QSignalSpy loaded(&session(), &Session::loaded);
-    session().openSynthetic(3, path("patients"));
-    QVERIFY(loaded.wait(wait_ms));
-    QVERIFY(session().images().mri && session().images().stiffness);
+    QVERIFY(openSynthetic());
     mri()->setSlice(mri()->sliceCount() / 2);
   }
 
@@ -216,7 +125,7 @@ class Gestures : public QObject {
 
   void theInnerRegionErodesWhatIsMeasured() {
     clean();
-    const QPoint at = liver();
+    const QPoint at = showLiver();
     square(at.x() - 50, at.y() - 50, 100);
     QTest::keyClick(mri(), Qt::Key_Return);
     QTRY_VERIFY(session().statistics().pooled.has_value());
@@ -247,12 +156,51 @@ class Gestures : public QObject {
     session().saveCase(path("no-wave"));
     const auto& images = session().images();
     glisson::pipeline::LoadedRoi roi =
-        glisson::pipeline::loadRoi(folder_ / "no-wave" / "contours-measured.json", {}, 0);
+        glisson::pipeline::loadRoi(folder() / "no-wave" / "contours-measured.json", {}, 0);
     const auto mapped = glisson::pipeline::mapRoi(roi, images.mri->grid, *images.stiffness);
     const auto again = glisson::elastography::measure(*images.stiffness, mapped.mask);
     QTRY_COMPARE(session().statistics().pooled->pooled.n, again.pooled.n);
     QCOMPARE(session().statistics().pooled->pooled.mean_kPa, again.pooled.mean_kPa);
     QCOMPARE(session().statistics().pooled->pooled.sd_kPa, again.pooled.sd_kPa);
+  }
+
+  void aFirstOutlineIsProposedFromUnderTheMouse() {
+    clean();
+    const QPoint at = showLiver();
+    const int k = mri()->slice();
+    mouse(mri(), QEvent::MouseMove, at, Qt::NoButton, Qt::NoButton);
+    QSignalSpy ended(&session(), &Session::workEnded);
+    QTest::keyClick(mri(), Qt::Key_G);
+    QVERIFY(session().busy());
+    QVERIFY(ended.wait(wait_ms));
+    QVERIFY2(ended[0][0].toBool(), qPrintable(ended[0][1].toString()));
+    QVERIFY(!polygons().empty());
+    for (const auto& p : polygons())
+      QCOMPARE(p.state, glisson::roi::PolygonState::Interpolated);  // a proposal, no more
+    QVERIFY(session().coverage().interpolated.contains(k));
+    QVERIFY(session().coverage().interpolated.size() > 5);
+    // It lies on the liver: on the reader's own outlines of this patient.
+    const auto& grid = session().images().mri->grid;
+    const auto truth =
+        glisson::pipeline::loadRoi(folder() / "patients" / "synthetic-patient-3" / "rtstruct.dcm", {}, 0);
+    QVERIFY(truth.contours.has_value());
+    const auto agreement = glisson::roi::agreement(glisson::roi::rasterise(session().contours(), grid),
+                                                   glisson::roi::rasterise(*truth.contours, grid));
+    qInfo("proposed from one click: Dice %.3f against the patient's own outlines", agreement.dice);
+    QVERIFY(agreement.dice > 0.7);
+    // It is edited like any other: a vertex is moved, and the slice is accepted with that.
+    const std::size_t accepted = session().acceptedCount();
+    std::size_t mine = polygons().size();
+    for (std::size_t p = 0; p < polygons().size(); ++p)
+      if (mri()->plane().holds(polygons()[p])) mine = p;
+    QVERIFY(mine < polygons().size());
+    const QPoint vertex = pixelOf(polygons()[mine].points_lps_mm.col(0));
+    drag(mri(), vertex, vertex + QPoint(0, 8));
+    QVERIFY(session().acceptedCount() > accepted);
+    session().undo();
+    QCOMPARE(session().acceptedCount(), accepted);
+    session().undo();  // the proposal is one step
+    QVERIFY(polygons().empty());
   }
 
   void twoReadersAreCompared() {
@@ -261,7 +209,7 @@ class Gestures : public QObject {
     session().compareReaders();
     QVERIFY(compared.wait(wait_ms));
     QVERIFY2(compared[0][0].toString().contains("Dice 1.000"), qPrintable(compared[0][0].toString()));
-    if (auto* box = window_->findChild<QDialog*>("readersBox")) box->close();
+    if (auto* box = window().findChild<QDialog*>("readersBox")) box->close();
     session().loadSecondReader({});
     QVERIFY(session().secondReader().polygons.empty());
   }
@@ -276,7 +224,7 @@ class Gestures : public QObject {
     QVERIFY(mri()->volume().high < high);
     QTest::keyClick(mri(), Qt::Key_0);
     for (const char* layer : {"layerMagnitude", "layerWave", "layerConfidence", "layerStiffness"}) {
-      auto* b = window_->findChild<QPushButton*>(layer);
+      auto* b = window().findChild<QPushButton*>(layer);
       QVERIFY(b && b->isEnabled());
       QTest::mouseClick(b, Qt::LeftButton);
       QVERIFY(mre()->hasVolume());
@@ -294,7 +242,7 @@ class Gestures : public QObject {
 
   void theSheetListsEveryKeyAndGesture() {
     QTest::keyClick(mri(), Qt::Key_F1);
-    auto* sheet = window_->findChild<QDialog*>("keySheet");
+    auto* sheet = window().findChild<QDialog*>("keySheet");
     QVERIFY(sheet && sheet->isVisible());
     QCOMPARE(static_cast<std::size_t>(sheet->findChild<QTreeWidget*>("keyTable")->topLevelItemCount()),
              glisson::tools::commandCount);
@@ -309,14 +257,14 @@ class Gestures : public QObject {
     QTest::keyClick(mri(), Qt::Key_Return);
     QTest::keyClick(mri(), Qt::Key_D, Qt::ControlModifier);
     QTest::mouseClick(mri(), Qt::RightButton, {}, QPoint(220, 220));
-    auto* menu = window_->findChild<QMenu*>("outlineMenu");
+    auto* menu = window().findChild<QMenu*>("outlineMenu");
     QVERIFY(menu && menu->isVisible());
     menu->close();
     QTest::keyClick(mri(), Qt::Key_D, Qt::ControlModifier);
     QTest::mouseClick(mri(), Qt::LeftButton, {}, QPoint(220, 220));
     mouse(mri(), QEvent::MouseButtonDblClick, {220, 220}, Qt::LeftButton, Qt::LeftButton);
     mouse(mri(), QEvent::MouseButtonRelease, {220, 220}, Qt::LeftButton, Qt::NoButton);
-    auto* properties = window_->findChild<QDialog*>("outlineProperties");
+    auto* properties = window().findChild<QDialog*>("outlineProperties");
     QVERIFY(properties && properties->isVisible());
     properties->close();
     QCOMPARE(polygons().size(), std::size_t{1});
@@ -325,7 +273,7 @@ class Gestures : public QObject {
 
   void theReadoutFollowsADragWithoutAStall() {
     clean();
-    const QPoint middle = liver();
+    const QPoint middle = showLiver();
     square(middle.x() - 60, middle.y() - 60, 120);
     QTest::qWait(200);
     StallMonitor stalls;
@@ -343,68 +291,6 @@ class Gestures : public QObject {
     QVERIFY2(r.max_ms <= 100.0, qPrintable(QString::number(r.max_ms)));
   }
 
-  /// 100,000 with GLISSON_RANDOM_EVENTS=100000.
-  void randomEventsBreakNothingAndUndoGoesAllTheWay() {
-    clean();
-    const int events = std::max(qEnvironmentVariableIntValue("GLISSON_RANDOM_EVENTS"), 1500);
-    Random random(static_cast<std::uint64_t>(std::max(qEnvironmentVariableIntValue("GLISSON_RANDOM_SEED"), 7)));
-    const std::vector<int> keys = {Qt::Key_P,      Qt::Key_F,         Qt::Key_R,    Qt::Key_M,      Qt::Key_W,
-                                   Qt::Key_Return, Qt::Key_Backspace, Qt::Key_Plus, Qt::Key_Minus,  Qt::Key_Escape,
-                                   Qt::Key_Left,   Qt::Key_Up,        Qt::Key_N,    Qt::Key_A,      Qt::Key_S,
-                                   Qt::Key_I,      Qt::Key_X,         Qt::Key_E,    Qt::Key_K,      Qt::Key_L,
-                                   Qt::Key_Home,   Qt::Key_PageUp,    Qt::Key_2,    Qt::Key_Delete, Qt::Key_H};
-    const std::vector<int> withCtrl = {Qt::Key_A, Qt::Key_D, Qt::Key_C, Qt::Key_V, Qt::Key_Z, Qt::Key_Return};
-    for (int n = 0; n < events; ++n) {
-      const QPoint at(static_cast<int>(random.below(static_cast<std::uint64_t>(mri()->width()))),
-                      static_cast<int>(random.below(static_cast<std::uint64_t>(mri()->height()))));
-      const QPoint to(static_cast<int>(random.below(static_cast<std::uint64_t>(mri()->width()))),
-                      static_cast<int>(random.below(static_cast<std::uint64_t>(mri()->height()))));
-      Qt::KeyboardModifiers modifiers;
-      if (random.uniform() < 0.15) modifiers |= Qt::ShiftModifier;
-      if (random.uniform() < 0.1) modifiers |= Qt::ControlModifier;
-      switch (random.below(9)) {
-        case 0:
-        case 1:
-        case 2:
-          QTest::mouseClick(mri(), Qt::LeftButton, modifiers, at);
-          break;
-        case 3:
-          drag(mri(), at, to, Qt::LeftButton, modifiers);
-          break;
-        case 4:
-          drag(mri(), at, to, random.uniform() < 0.5 ? Qt::RightButton : Qt::MiddleButton);
-          break;
-        case 5:
-          wheel(mri(), at, random.uniform() < 0.5 ? 120 : -120, modifiers);
-          break;
-        case 6:
-          QTest::keyClick(mri(), static_cast<Qt::Key>(keys[random.below(keys.size())]));
-          break;
-        case 7:
-          QTest::keyClick(mri(), static_cast<Qt::Key>(withCtrl[random.below(withCtrl.size())]), Qt::ControlModifier);
-          break;
-        default:
-          mouse(mri(), QEvent::MouseButtonDblClick, at, Qt::LeftButton, Qt::LeftButton);
-          mouse(mri(), QEvent::MouseButtonRelease, at, Qt::LeftButton, Qt::NoButton);
-      }
-      if (n % 50 == 0) {
-        QCoreApplication::processEvents();
-        for (QDialog* dialog : window_->findChildren<QDialog*>()) dialog->close();
-        for (QMenu* menu : window_->findChildren<QMenu*>("outlineMenu")) menu->close();
-        if (mri()->zoom_px_mm() > 20.0 || mri()->zoom_px_mm() < 0.5) mri()->fit();
-      }
-      // Outlines of a long day: the oldest go, as a hand would delete them.
-      if (polygons().size() > 60) clean();
-      for (const auto& p : polygons()) QVERIFY2(p.points_lps_mm.allFinite(), qPrintable(QString::number(n)));
-      if (session().tool().selected()) QVERIFY(*session().tool().selected() < polygons().size());
-    }
-    for (QDialog* dialog : window_->findChildren<QDialog*>()) dialog->close();
-    QTest::keyClick(mri(), Qt::Key_P);
-    clean();
-    QVERIFY(!session().canUndo());
-    mri()->fit();
-  }
-
   void aCaseComesBackAsItWasSaved() {
     clean();
     mri()->setSlice(mri()->sliceCount() / 2);
@@ -415,15 +301,12 @@ class Gestures : public QObject {
     session().saveCase(path("case"));
     QVERIFY(!session().modified());
     const auto saved = session().contours();
-    window_.reset();  // gives the lock back
-    window_ = open(path("journals"));
-    QSignalSpy loaded(&session(), &Session::loaded);
-    session().openPath(path("case") + "/case.json");
-    QVERIFY(loaded.wait(wait_ms));
+    open(path("journals"));  // the window before gives the lock back
+    QVERIFY(openPath(path("case") + "/case.json"));
     QVERIFY(same(session().contours(), saved));
     QVERIFY(session().contours().marks == saved.marks);
     QCOMPARE(session().caseFolder(), path("case"));
-    auto second = open(path("journals2"));
+    auto second = make(path("journals2"));
     QSignalSpy ended(&second->session(), &Session::workEnded);
     second->session().openPath(path("case"));
     QVERIFY(ended.wait(wait_ms));
@@ -440,14 +323,13 @@ class Gestures : public QObject {
     const Eigen::Matrix3Xd inWork = session().tool().drawing();
     QCOMPARE(inWork.cols(), Eigen::Index{3});
     // A copy of the journal is what a killed program leaves.
-    std::filesystem::create_directories(folder_ / "crashed");
-    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "journals"))
-      std::filesystem::copy_file(entry.path(), folder_ / "crashed" / "journal-1-0");
-    window_.reset();
-    window_ = open(path("crashed"));
+    std::filesystem::create_directories(folder() / "crashed");
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / "journals"))
+      std::filesystem::copy_file(entry.path(), folder() / "crashed" / "journal-1-0");
+    open(path("crashed"));
     auto* recover = [&]() -> QPushButton* {
       QPushButton* found = nullptr;
-      if (!QTest::qWaitFor([&] { return (found = window_->findChild<QPushButton*>("recoverButton")) != nullptr; }))
+      if (!QTest::qWaitFor([&] { return (found = window().findChild<QPushButton*>("recoverButton")) != nullptr; }))
         return nullptr;
       return found;
     }();
@@ -463,13 +345,8 @@ class Gestures : public QObject {
     QVERIFY(session().modified());
   }
 
-  void cleanupTestCase() { window_.reset(); }
+  void cleanupTestCase() { close(); }
 };
 
-int main(int argc, char** argv) {
-  qputenv("QTEST_FUNCTION_TIMEOUT", "3600000");  // the long run of random events
-  QApplication app(argc, argv);
-  Gestures tests;
-  return QTest::qExec(&tests, argc, argv);
-}
+QTEST_MAIN(Gestures)
 #include "gestures_test.moc"

@@ -1,14 +1,11 @@
+// From a DICOM folder to the overlay, as a hand would do it.
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QPushButton>
-#include <QSettings>
-#include <QSignalSpy>
 #include <QSlider>
 #include <QTableWidget>
-#include <QTest>
-#include <QTimer>
 #include <QTreeWidget>
 #include <algorithm>
 #include <cmath>
@@ -16,97 +13,29 @@
 
 #include "panels/compare_page.h"
 #include "panels/live_bar.h"
-#include "panels/main_window.h"
 #include "panels/step_rail.h"
-#include "panels/theme.h"
 #include "pipeline/run.h"
-#include "support/support.h"
+#include "session/stall_monitor.h"
 #include "views/picture_view.h"
 #include "views/scene_view.h"
-#include "views/slice_view.h"
+#include "window_bench.h"
 
-using glisson::panels::MainWindow;
 using glisson::session::Session;
+using glisson::session::StallMonitor;
 using glisson::session::Step;
 using glisson::session::StepState;
+using glisson::test::wait_ms;
 using glisson::views::PictureView;
-using glisson::views::SliceView;
 
-namespace {
-
-constexpr int wait_ms = 300000;
-
-/// The longest time between two ticks of a 5 ms timer: how long the window did not answer.
-class StallWatch : public QObject {
- public:
-  StallWatch() {
-    clock_.start();
-    connect(&timer_, &QTimer::timeout, this, [this] { worst_ms_ = std::max(worst_ms_, clock_.restart()); });
-    timer_.start(5);
-  }
-  qint64 worst_ms() const { return worst_ms_; }
-
- private:
-  QTimer timer_;
-  QElapsedTimer clock_;
-  qint64 worst_ms_ = 0;
-};
-
-}  // namespace
-
-/// From a DICOM folder to the overlay, as a hand would do it. The functions run in order on one window.
-class Journey : public QObject {
+/// The functions run in order on one window.
+class Journey : public QObject, private glisson::test::WindowBench {
   Q_OBJECT
 
- private:
-  glisson::test::TemporaryFolder folder_;
-  std::unique_ptr<MainWindow> window_;
-
-  Session& session() { return window_->session(); }
-  SliceView* mri() { return window_->findChild<SliceView*>("mriView"); }
-  template <typename W>
-  W* find(const char* name) {
-    W* found = window_->findChild<W*>(QString::fromLatin1(name));
-    if (!found) qFatal("no widget is called %s", name);
-    return found;
-  }
-  void click(const char* name) { QTest::mouseClick(find<QPushButton>(name), Qt::LeftButton); }
-  QPoint pixelOf(const Eigen::Vector3d& p_lps) {
-    const Eigen::Vector2d px = mri()->plane().toPixel(p_lps);
-    return {static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y()))};
-  }
-  /// Draws an ellipse of vertices around a point of the slice shown, closing on the first vertex.
-  void drawEllipse(const Eigen::Vector3d& centre, double rx_mm, double ry_mm, int vertices) {
-    const Eigen::Matrix3d axes = mri()->plane().grid.direction;
-    QPoint first;
-    for (int v = 0; v < vertices; ++v) {
-      const double a = 2.0 * M_PI * v / vertices;
-      const QPoint at = pixelOf(centre + axes * Eigen::Vector3d(rx_mm * std::cos(a), ry_mm * std::sin(a), 0.0));
-      if (v == 0) first = at;
-      QTest::mouseMove(mri(), at);
-      QTest::mouseClick(mri(), Qt::LeftButton, {}, at);
-    }
-    QTest::mouseMove(mri(), first + QPoint(3, 3));
-    QVERIFY(session().tool().closes());
-    QTest::mouseClick(mri(), Qt::LeftButton, {}, first + QPoint(3, 3));
-  }
-
  private slots:
-  void initTestCase() {
-    glisson::panels::applyTheme(glisson::panels::Theme::Dark);
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope,
-                       QString::fromStdString((folder_ / "settings").string()));
-    window_ = std::make_unique<MainWindow>();
-    session().setJournalFolder(QString::fromStdString((folder_ / "journals").string()));
-    session().setWorkFolder(QString::fromStdString((folder_ / "work").string()));
-    window_->show();
-    QVERIFY(QTest::qWaitForWindowExposed(window_.get()));
-  }
-
   void everyStepCanBeLookedAtWhileEmpty() {
     for (const char* name : {"stepSegment", "stepModel", "stepRetract", "stepCompare", "stepLoad"}) {
-      QTest::mouseClick(window_->findChild<QWidget*>(name), Qt::LeftButton);
-      QVERIFY(window_->isVisible());
+      QTest::mouseClick(window().findChild<QWidget*>(name), Qt::LeftButton);
+      QVERIFY(window().isVisible());
     }
     QCOMPARE(session().status(Step::Segment).state, StepState::Empty);
     QVERIFY(find<QLabel>("researchUse")->text().contains("not for clinical use"));
@@ -114,45 +43,34 @@ class Journey : public QObject {
 
   void opensTheSyntheticPatientFromDicom() {
     QSignalSpy loaded(&session(), &Session::loaded);
-    StallWatch stalls;
-    session().openSynthetic(3, QString::fromStdString(folder_.path().string()));
+    StallMonitor stalls;
+    session().openSynthetic(3, QString::fromStdString(folder().string()));
     QCOMPARE(session().status(Step::Load).state, StepState::Running);
     QVERIFY(loaded.wait(wait_ms));
     QVERIFY2(session().images().mri, qPrintable(session().status(Step::Load).detail));
     QVERIFY(session().images().stiffness);
     QVERIFY(session().images().stiffness->confidence);
     QCOMPARE(session().status(Step::Load).state, StepState::Done);
-    QCOMPARE(window_->step(), Step::Segment);
+    QCOMPARE(window().step(), Step::Segment);
     QVERIFY(find<QTableWidget>("seriesTable")->rowCount() >= 5);
-    qInfo("longest time without an answer while opening: %lld ms", static_cast<long long>(stalls.worst_ms()));
+    qInfo("longest time without an answer while opening: %.0f ms", stalls.report().max_ms);
   }
 
   void showsNoPatientText() {
-    for (const QLabel* label : window_->findChildren<QLabel*>())
+    for (const QLabel* label : window().findChildren<QLabel*>())
       QVERIFY2(!label->text().contains("PHANTOM"), qPrintable(label->text()));
-    QVERIFY(!window_->windowTitle().contains("PHANTOM"));
+    QVERIFY(!window().windowTitle().contains("PHANTOM"));
   }
 
   void drawsOutlinesWithTheMouse() {
-    // Where the elastogram is trusted most is well inside the liver: the middle of its confident voxels.
-    const auto& map = *session().images().stiffness;
-    const glisson::image::Grid& grid = map.values_kPa.grid;
-    const int k = grid.size.z() / 2;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double n = 0.0;
-    for (int j = 0; j < grid.size.y(); ++j)
-      for (int i = 0; i < grid.size.x(); ++i)
-        if (map.confidence->at(i, j, k) >= 0.95F) sum += grid.indexToLps({1.0 * i, 1.0 * j, 1.0 * k}), n += 1.0;
-    QVERIFY(n > 100.0);
-    const Eigen::Vector3d centre = sum / n;
-
+    const Eigen::Vector3d centre = glisson::test::trustedPlace(session());
     QTest::mouseMove(mri(), QPoint(5, 5));
     mri()->showPoint(centre);
     const int middle = mri()->slice();
     std::size_t accepted = 0;
     for (const int slice : {middle - 6, middle - 2, middle + 2, middle + 6}) {
       mri()->setSlice(slice);
-      drawEllipse(centre, 30.0, 24.0, 12);
+      ellipse(centre, 30.0, 24.0, 12);
       QCOMPARE(session().tool().state(), glisson::tools::ToolState::Editing);
       QTest::keyClick(mri(), Qt::Key_Return);
       QCOMPARE(session().acceptedCount(), ++accepted);
@@ -216,7 +134,7 @@ class Journey : public QObject {
   }
 
   void cancelAnswersWithinAQuarterOfASecond() {
-    window_->showStep(Step::Model);
+    window().showStep(Step::Model);
     find<QDoubleSpinBox>("cellSize")->setValue(6.0);
     QSignalSpy ended(&session(), &Session::workEnded);
     QSignalSpy progress(&session(), &Session::progressed);
@@ -233,18 +151,18 @@ class Journey : public QObject {
   }
 
   void runsAndShowsTheOverlay() {
-    auto* compare = window_->findChild<glisson::panels::ComparePage*>();
+    auto* compare = window().findChild<glisson::panels::ComparePage*>();
     QSignalSpy finished(&session(), &Session::runFinished);
     QSignalSpy drawn(compare, &glisson::panels::ComparePage::overlayShown);
     QSignalSpy ended(&session(), &Session::workEnded);
-    window_->showStep(Step::Retract);
-    StallWatch stalls;
+    window().showStep(Step::Retract);
+    StallMonitor stalls;
     click("runButton");
     QVERIFY(ended.wait(wait_ms));
     QVERIFY2(finished.count() == 1, qPrintable(session().status(Step::Retract).detail));
     QVERIFY(drawn.count() > 0 || drawn.wait(wait_ms));
-    qInfo("longest time without an answer while running: %lld ms", static_cast<long long>(stalls.worst_ms()));
-    QCOMPARE(window_->step(), Step::Compare);
+    qInfo("longest time without an answer while running: %.0f ms", stalls.report().max_ms);
+    QCOMPARE(window().step(), Step::Compare);
     QCOMPARE(session().status(Step::Compare).state, StepState::Done);
     const QImage overlay = find<PictureView>("overlayView")->picture();
     int coloured = 0;
@@ -266,11 +184,11 @@ class Journey : public QObject {
   }
 
   void theToolIsMovedLive() {
-    auto* live = window_->findChild<glisson::panels::LiveBar*>();
+    auto* live = window().findChild<glisson::panels::LiveBar*>();
     auto* view = find<glisson::views::SceneView>("retractView");
     QTRY_VERIFY_WITH_TIMEOUT(live->isReady(), wait_ms);
     QSignalSpy rendered(view, &glisson::views::SceneView::rendered);
-    window_->showStep(Step::Retract);
+    window().showStep(Step::Retract);
     QVERIFY(rendered.wait(wait_ms));
     click("liveButton");
     QVERIFY(live->isLive() && view->isLive());
@@ -308,11 +226,11 @@ class Journey : public QObject {
     QVERIFY(std::abs(live->frame().vesselMax_mm - run.vesselMax_mm) < 1e-3 * std::max(run.vesselMax_mm, 1.0));
     click("liveButton");
     QVERIFY(!view->isLive());
-    window_->showStep(Step::Compare);
+    window().showStep(Step::Compare);
   }
 
   void vesselsBeyondFiveMillimetresAreListedAndFound() {
-    auto* compare = window_->findChild<glisson::panels::ComparePage*>();
+    auto* compare = window().findChild<glisson::panels::ComparePage*>();
     auto* list = find<QTreeWidget>("vesselList");
     const auto& apart = session().result()->difference->vessel_mm;
     const auto beyond = std::count_if(apart.begin(), apart.end(), [](double d) { return d >= 5.0; });
@@ -334,22 +252,22 @@ class Journey : public QObject {
   }
 
   void picturesAndReportAreExported() {
-    auto* compare = window_->findChild<glisson::panels::ComparePage*>();
+    auto* compare = window().findChild<glisson::panels::ComparePage*>();
     QSignalSpy exported(compare, &glisson::panels::ComparePage::exported);
-    const auto folder = folder_ / "exported";
-    compare->exportTo(QString::fromStdString(folder.string()));
+    const auto target = folder() / "exported";
+    compare->exportTo(path("exported"));
     QVERIFY(exported.wait(wait_ms));
     QVERIFY2(exported.front()[1].toString().isEmpty(), qPrintable(exported.front()[1].toString()));
     for (const char* name : {"overlay-largest-difference.png", "difference-map.png", "overlay-3d-oblique.png",
                              "difference-boxes.png", "difference-boxes.svg", "report.html", "run.json"})
-      QVERIFY2(std::filesystem::file_size(folder / name) > 1000, name);
+      QVERIFY2(std::filesystem::file_size(target / name) > 1000, name);
   }
 
   void theCommandLineGivesTheSameNumbers() {
     // What the window ran is the case on disk: run it again from there, as the command line does.
-    const auto scene = glisson::pipeline::readScene(folder_ / "work" / "scene.json");
+    const auto scene = glisson::pipeline::readScene(folder() / "work" / "scene.json");
     glisson::pipeline::RunOptions options;
-    options.output = folder_ / "again";
+    options.output = folder() / "again";
     glisson::pipeline::RunResult again;
     std::exception_ptr failure;
     // On a thread of its own: here the window's OpenGL context is current, and the pictures need one of theirs.
@@ -368,7 +286,7 @@ class Journey : public QObject {
   }
 
   void aChangeUpstreamMakesTheResultStale() {
-    window_->showStep(Step::Retract);
+    window().showStep(Step::Retract);
     find<QDoubleSpinBox>("retractorDiameter")->setValue(12.0);
     QCOMPARE(session().status(Step::Compare).state, StepState::Stale);
     find<QDoubleSpinBox>("retractorDiameter")->setValue(10.0);
@@ -377,10 +295,10 @@ class Journey : public QObject {
   void theWindowsSceneIsThatOfTheSyntheticPatient() {
     // Outlines of the patient's own structure set and the parameters as the window starts with them, against the scene
     // that lies beside the patient: the same numbers. Pictures are left out on both sides, they change no number.
-    const auto patient = folder_ / "synthetic-patient-3";
+    const auto patient = folder() / "synthetic-patient-3";
     session().importContours(QString::fromStdString((patient / "rtstruct.dcm").string()));
     session().setParameters({});
-    const auto saved = folder_ / "saved";
+    const auto saved = folder() / "saved";
     session().saveCase(QString::fromStdString(saved.string()));
     const auto numbers = [](const std::filesystem::path& file) {
       auto scene = glisson::pipeline::readScene(file);
@@ -398,7 +316,7 @@ class Journey : public QObject {
     QVERIFY(own.difference->at_retractor_mm > 0.0);
   }
 
-  void cleanupTestCase() { window_.reset(); }
+  void cleanupTestCase() { close(); }
 };
 
 QTEST_MAIN(Journey)

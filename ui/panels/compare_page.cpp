@@ -7,6 +7,7 @@
 #include <QStackedWidget>
 
 #include "panels/form.h"
+#include "panels/method_chart.h"
 #include "render/maps.h"
 #include "session/session.h"
 #include "views/picture_view.h"
@@ -37,6 +38,7 @@ ComparePage::ComparePage(session::Session& session, QWidget* parent)
   beside_ = new QStackedWidget;
   beside_->addWidget(scene_);
   beside_->addWidget(boxes_);
+  beside_->addWidget(new MethodChart(session_));
   auto* left = new QWidget;
   auto* column = new QVBoxLayout(left);
   column->setContentsMargins(0, 0, 0, 0);
@@ -126,7 +128,7 @@ QWidget* ComparePage::makeSide() {
   form->addRow(tr("Slice"), what_);
   chart_ = new QComboBox;
   chart_->setObjectName(QStringLiteral("besideChoice"));
-  chart_->addItems({tr("3-D"), tr("Box plot")});
+  chart_->addItems({tr("3-D"), tr("Box plot"), tr("Error against run time")});
   form->addRow(tr("Beside it"), chart_);
   side->addLayout(form);
   export_ = button("exportButton", tr("Export pictures and report…"), {},

@@ -1,8 +1,10 @@
 #include "panels/model_page.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QHeaderView>
 #include <QSpinBox>
+#include <QStandardItemModel>
 #include <QTreeWidget>
 
 #include "panels/form.h"
@@ -12,8 +14,17 @@
 namespace glisson::panels {
 
 namespace {
+
 constexpr double leastCell_mm = 1.0;
+
+QComboBox* choice(const char* objectName, const QString& tip) {
+  auto* box = new QComboBox;
+  box->setObjectName(QString::fromLatin1(objectName));
+  box->setToolTip(tip);
+  return box;
 }
+
+}  // namespace
 
 ModelPage::ModelPage(session::Session& session, QWidget* parent) : QWidget(parent), session_(session) {
   auto* centre = new QWidget;
@@ -75,26 +86,69 @@ QWidget* ModelPage::makeSide() {
   material->addRow(tr("Poisson's ratio ν"), poisson_);
   density_ = quantity("density", 1, 20000, 10, 0, QStringLiteral("kg/m³"), tr("Mass density of the liver"));
   material->addRow(tr("Density"), density_);
+  register_ = new QCheckBox(tr("Lay elastogram over MRI"));
+  register_->setObjectName(QStringLiteral("registerRigidly"));
+  register_->setToolTip(tr(
+      "The elastogram is of another breath-hold: moved rigidly until the magnitude images agree, before it is read"));
+  material->addRow(register_);
   side->addLayout(material);
   side->addSpacing(8);
   side->addWidget(section(tr("Discretisation")));
-  auto* mesh = new QFormLayout;
-  kind_ = new QComboBox;
-  kind_->setObjectName(QStringLiteral("modelKind"));
-  kind_->addItem(tr("Voxel FEM (hexahedra)"), static_cast<int>(retraction::ModelKind::FemHex));
-  kind_->addItem(tr("Mesh-free (Voronoi sites)"), static_cast<int>(retraction::ModelKind::Meshfree));
-  mesh->addRow(tr("Method"), kind_);
+  mesh_ = new QFormLayout;
+  method_ = choice("modelKind", tr("How the liver is divided; Compare shows error against run time of each"));
+  const auto offer = [this](session::Method method, const QString& text, const QString& tip) {
+    method_->addItem(text, QString::fromStdString(nameIn(session::methodNames, method)));
+    method_->setItemData(method_->count() - 1, tip, Qt::ToolTipRole);
+  };
+  using session::Method;
+  offer(Method::HexIncompatible, tr("Voxel FEM, incompatible modes"),
+        tr("Hexahedra that bend without locking: the default"));
+  offer(Method::HexBBar, tr("Voxel FEM, B-bar"), tr("Hexahedra that do not lock where nearly incompressible"));
+  offer(Method::Hex, tr("Voxel FEM, trilinear"), tr("The plain hexahedron; too stiff in bending"));
+  offer(Method::TetQuadratic, tr("Tetrahedra, quadratic"), tr("Six ten-node tetrahedra per voxel"));
+  offer(Method::TetLinear, tr("Tetrahedra, linear"), tr("Six four-node tetrahedra per voxel; too stiff"));
+  offer(Method::DelaunayQuadratic, tr("Delaunay, quadratic"), tr("Ten-node tetrahedra that follow the smooth surface"));
+  offer(Method::DelaunayLinear, tr("Delaunay, linear"), tr("Four-node tetrahedra that follow the smooth surface"));
+  offer(Method::WendlandAffine, tr("Mesh-free, Wendland"), tr("Frames with affine motion, Wendland kernel"));
+  offer(Method::WendlandQuadratic, tr("Mesh-free, Wendland quadratic"), tr("Frames with quadratic motion"));
+  offer(Method::Voronoi, tr("Mesh-free, Voronoi"), tr("Frames with affine motion, Voronoi kernel as published"));
+  offer(Method::MovingLeastSquares, tr("Mesh-free, moving least squares"),
+        tr("Element-free Galerkin: three degrees of freedom per site"));
+  mesh_->addRow(tr("Method"), method_);
   cell_ = quantity("cellSize", 0, 20, 0.5, 2, QStringLiteral("mm"),
                    tr("Edge of a voxel cell: smaller is more exact and slower. 0 = twice the pixel of the MRI"));
   cell_->setSpecialValueText(tr("automatic"));
-  mesh->addRow(tr("Cell"), cell_);
+  mesh_->addRow(tr("Cell"), cell_);
   frames_ = new QSpinBox;
   frames_->setObjectName(QStringLiteral("frames"));
   frames_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   frames_->setRange(4, 5000);
   frames_->setToolTip(tr("Number of mesh-free sites"));
-  mesh->addRow(tr("Sites"), frames_);
-  side->addLayout(mesh);
+  mesh_->addRow(tr("Sites"), frames_);
+  tetEdge_ = quantity("tetEdge", 2, 50, 1, 1, QStringLiteral("mm"), tr("Edge of the tetrahedra"));
+  mesh_->addRow(tr("Edge"), tetEdge_);
+  tetToolEdge_ = quantity("tetToolEdge", 1, 50, 0.5, 1, QStringLiteral("mm"),
+                          tr("Edge of the tetrahedra near the retractor, at most that of the others"));
+  mesh_->addRow(tr("At the tool"), tetToolEdge_);
+  side->addLayout(mesh_);
+  side->addSpacing(8);
+  side->addWidget(section(tr("Equations")));
+  solution_ = new QFormLayout;
+  kinematics_ =
+      choice("kinematics", tr("How strain follows from displacement; other than linear for voxel FEM at rest"));
+  kinematics_->addItems({tr("Linear"), tr("Corotational"), tr("Hyperelastic")});
+  solution_->addRow(tr("Deformation"), kinematics_);
+  motion_ = choice("analysis", tr("One solve for the new rest, or time steps towards it"));
+  motion_->addItems({tr("At rest"), tr("Time steps")});
+  solution_->addRow(tr("Analysis"), motion_);
+  step_ = quantity("timeStep", 0.01, 1000, 0.5, 2, QStringLiteral("ms"), tr("Length of an implicit time step"));
+  solution_->addRow(tr("Step"), step_);
+  end_ = quantity("endTime", 0.01, 100, 0.5, 2, QStringLiteral("s"), tr("Stops before where nothing moves any more"));
+  solution_->addRow(tr("Until"), end_);
+  solver_ = choice("solver", tr("Who solves the equations; automatic takes the fastest for the size"));
+  solver_->addItems({tr("Automatic"), tr("Conjugate gradients"), tr("Multigrid"), tr("Factorised"), tr("Condensed")});
+  solution_->addRow(tr("Solver"), solver_);
+  side->addLayout(solution_);
   side->addSpacing(8);
   side->addWidget(section(tr("Liver")));
   numbers_ = labelled({}, "faint");
@@ -105,11 +159,12 @@ QWidget* ModelPage::makeSide() {
   run->setProperty("primary", true);
   side->addWidget(run);
   connect(run, &QPushButton::clicked, this, &ModelPage::runWanted);
-  for (QDoubleSpinBox* box : {poisson_, density_, cell_, atlas_})
+  for (QDoubleSpinBox* box : {poisson_, density_, cell_, atlas_, tetEdge_, tetToolEdge_, step_, end_})
     connect(box, &QDoubleSpinBox::valueChanged, this, &ModelPage::take);
   connect(frames_, &QSpinBox::valueChanged, this, &ModelPage::take);
-  connect(kind_, &QComboBox::currentIndexChanged, this, &ModelPage::take);
-  connect(stiffness_, &QComboBox::currentIndexChanged, this, &ModelPage::take);
+  for (QComboBox* box : {method_, kinematics_, motion_, solver_, stiffness_})
+    connect(box, &QComboBox::currentIndexChanged, this, &ModelPage::take);
+  connect(register_, &QCheckBox::toggled, this, &ModelPage::take);
   return frame;
 }
 
@@ -125,9 +180,24 @@ void ModelPage::take() {
                                              : 0.0;
   p.atlasShear_kPa = atlas_->value();
   p.frames = frames_->value();
-  p.model = static_cast<retraction::ModelKind>(kind_->currentData().toInt());
   p.useMre = stiffness_->currentIndex() == 0;
+  p.registerRigidly = register_->isChecked();
+  p.method = session::named(session::methodNames, method_->currentData().toString().toStdString(), "model");
+  p.tetEdge_mm = tetEdge_->value();
+  p.tetToolEdge_mm = std::min(tetToolEdge_->value(), p.tetEdge_mm);
+  p.kinematics = session::kinematicsNames[static_cast<std::size_t>(kinematics_->currentIndex())].first;
+  p.dynamic = motion_->currentIndex() == 1;
+  p.step_ms = step_->value();
+  p.end_s = end_->value();
+  p.solver = session::solverNames[static_cast<std::size_t>(solver_->currentIndex())].first;
+  // What the method does not offer goes back to what it does: the controls show it.
+  if (!session::isHex(p.method)) p.kinematics = retraction::Kinematics::Linear;
+  const bool linear = p.kinematics == retraction::Kinematics::Linear;
+  if (!linear || (!session::isHex(p.method) && !session::isMeshfree(p.method))) p.dynamic = false;
+  if (p.solver == session::Solver::Condensed && (!session::isHex(p.method) || !linear))
+    p.solver = session::Solver::Auto;
   session_.setParameters(p);
+  show_();
 }
 
 void ModelPage::show_() {
@@ -138,10 +208,34 @@ void ModelPage::show_() {
   cell_->setValue(p.cell_mm);
   atlas_->setValue(p.atlasShear_kPa);
   frames_->setValue(p.frames);
-  frames_->setEnabled(p.model == retraction::ModelKind::Meshfree);
-  kind_->setCurrentIndex(kind_->findData(static_cast<int>(p.model)));
+  tetEdge_->setValue(p.tetEdge_mm);
+  tetToolEdge_->setValue(p.tetToolEdge_mm);
+  step_->setValue(p.step_ms);
+  end_->setValue(p.end_s);
+  method_->setCurrentIndex(method_->findData(QString::fromStdString(nameIn(session::methodNames, p.method))));
+  kinematics_->setCurrentIndex(static_cast<int>(p.kinematics));
+  motion_->setCurrentIndex(p.dynamic ? 1 : 0);
+  solver_->setCurrentIndex(static_cast<int>(p.solver));
   stiffness_->setCurrentIndex(p.useMre ? 0 : 1);
+  register_->setChecked(p.registerRigidly);
+  showWhatFits();
   filling_ = false;
+}
+
+void ModelPage::showWhatFits() {
+  const session::Parameters& p = session_.parameters();
+  const bool hex = session::isHex(p.method), frames = session::isMeshfree(p.method);
+  const bool delaunay = session::isDelaunay(p.method), linear = p.kinematics == retraction::Kinematics::Linear;
+  mesh_->setRowVisible(frames_, frames);
+  mesh_->setRowVisible(tetEdge_, delaunay);
+  mesh_->setRowVisible(tetToolEdge_, delaunay);
+  solution_->setRowVisible(step_, p.dynamic);
+  solution_->setRowVisible(end_, p.dynamic);
+  kinematics_->setEnabled(hex);
+  motion_->setEnabled(linear && (hex || frames));
+  auto* offers = qobject_cast<QStandardItemModel*>(solver_->model());
+  offers->item(static_cast<int>(session::Solver::Condensed))->setEnabled(hex && linear);
+  register_->setEnabled(p.useMre);
 }
 
 void ModelPage::showEvent(QShowEvent*) {

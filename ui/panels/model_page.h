@@ -5,6 +5,7 @@
 class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
+class QFormLayout;
 class QLabel;
 class QSpinBox;
 class QTreeWidget;
@@ -34,12 +35,15 @@ class ModelPage : public QWidget {
   void show_();  ///< session to form
   void showPlan();
   void showNumbers();
+  void showWhatFits();  ///< enables what the chosen method offers
   session::Session& session_;
   QTreeWidget* plan_;
   QLabel* numbers_;
-  QComboBox *kind_, *stiffness_;
-  QDoubleSpinBox *poisson_, *density_, *cell_, *atlas_;
+  QComboBox *method_, *kinematics_, *solver_, *motion_, *stiffness_;
+  QDoubleSpinBox *poisson_, *density_, *cell_, *atlas_, *tetEdge_, *tetToolEdge_, *step_, *end_;
   QSpinBox* frames_;
+  QCheckBox* register_;
+  QFormLayout *mesh_ = nullptr, *solution_ = nullptr;
   bool filling_ = false;
 };
 

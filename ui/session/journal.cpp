@@ -12,10 +12,10 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/sha256.h"
 #include "roi/contour_io.h"
-#include "session/atomic_file.h"
 #include "session/marks_json.h"
 
 namespace glisson::session {
@@ -139,7 +139,8 @@ void Journal::restart() {
 }
 
 void Journal::begin(const std::string& source, const std::string& caseFile, const std::string& seriesUid) {
-  restart();
+  // What came before goes out of force with the next record, not before: at no moment is there nothing on disk.
+  whole_ = true;
   state_ = {};
   state_.source = source;
   state_.caseFile = caseFile;

@@ -37,7 +37,7 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// What the records that follow belong to; forgets what came before.
+  /// What the records that follow belong to; the first of them takes the place of all that came before.
   void begin(const std::string& source, const std::string& caseFile, const std::string& seriesUid);
   /// The state after a gesture. Nothing is written where nothing has changed. Throws BadInput (full disk): the state
   /// is kept and written with the next record.

@@ -2,6 +2,7 @@
 
 #include "base/quantity.h"
 #include "retraction/setup.h"
+#include "session/methods.h"
 
 namespace glisson::session {
 
@@ -11,10 +12,18 @@ struct Parameters {
   // Model
   double poisson = defaults::poisson;  ///< unitless
   double density_kg_m3 = defaults::liverDensity.kgPerM3();
-  retraction::ModelKind model = retraction::ModelKind::FemHex;
-  double cell_mm = 0.0;  ///< edge of a cell; 0 = twice the MRI's smaller pixel spacing
-  int frames = 200;      ///< mesh-free sites
-  bool useMre = true;    ///< else the atlas stiffness throughout
+  Method method = Method::HexIncompatible;
+  double cell_mm = 0.0;                                 ///< edge of a cell; 0 = twice the MRI's smaller pixel spacing
+  int frames = 200;                                     ///< mesh-free sites
+  double tetEdge_mm = retraction::ModelSpec{}.cell_mm;  ///< Delaunay: edges of the tetrahedra
+  double tetToolEdge_mm = retraction::ModelSpec{}.toolCell_mm;         ///< and near the retractor
+  retraction::Kinematics kinematics = retraction::Kinematics::Linear;  ///< other ones: hexahedra at rest only
+  Solver solver = Solver::Auto;
+  bool dynamic = false;  ///< time steps to the new rest instead of one solve; hexahedra and mesh-free only
+  double step_ms = retraction::AnalysisSpec{}.h_ms;
+  double end_s = retraction::AnalysisSpec{}.end_s;
+  bool registerRigidly = false;  ///< the elastogram is laid over the MRI first: another breath-hold
+  bool useMre = true;            ///< else the atlas stiffness throughout
   double atlasShear_kPa = defaults::atlasShear.kPa();
   // Retract
   double retractorDiameter_mm = defaults::retractorDiameter.mm();

@@ -1,39 +1,27 @@
 #pragma once
 
-#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 
-#include "base/error.h"
 #include "session/parameters.h"
 
 namespace glisson::session {
-
-inline constexpr std::array<std::pair<retraction::ModelKind, const char*>, 3> modelNames = {
-    {{retraction::ModelKind::FemHex, "fem-hex"},
-     {retraction::ModelKind::FemTet, "fem-tet"},
-     {retraction::ModelKind::Meshfree, "meshfree"}}};
-
-inline std::string nameOf(retraction::ModelKind kind) {
-  for (const auto& [k, name] : modelNames)
-    if (k == kind) return name;
-  return modelNames.front().second;
-}
-
-inline retraction::ModelKind modelNamed(const std::string& name) {
-  for (const auto& [kind, n] : modelNames)
-    if (n == name) return kind;
-  throw BadInput("the case asks for the model '" + name.substr(0, 40) + "', which this version does not know");
-}
 
 /// Every parameter with its unit in its key.
 inline nlohmann::json toJson(const Parameters& p) {
   return {{"poisson", p.poisson},
           {"density_kg_m3", p.density_kg_m3},
-          {"model", nameOf(p.model)},
+          {"model", nameIn(methodNames, p.method)},
           {"cell_mm", p.cell_mm},
           {"frames", p.frames},
+          {"tet_edge_mm", p.tetEdge_mm},
+          {"tet_tool_edge_mm", p.tetToolEdge_mm},
+          {"kinematics", nameIn(kinematicsNames, p.kinematics)},
+          {"solver", nameIn(solverNames, p.solver)},
+          {"dynamic", p.dynamic},
+          {"step_ms", p.step_ms},
+          {"end_s", p.end_s},
+          {"register_rigidly", p.registerRigidly},
           {"use_mre", p.useMre},
           {"atlas_shear_kPa", p.atlasShear_kPa},
           {"retractor_diameter_mm", p.retractorDiameter_mm},
@@ -44,14 +32,24 @@ inline nlohmann::json toJson(const Parameters& p) {
           {"abdomen_kPa_per_mm", p.abdomen_kPa_per_mm}};
 }
 
-/// The reverse. Throws nlohmann's exceptions for a missing key or another type.
+/// The reverse. Throws BadInput for a choice that is not known, nlohmann's exceptions for a missing key or another
+/// type.
 inline Parameters parametersFromJson(const nlohmann::json& j) {
   Parameters p;
   p.poisson = j.at("poisson").get<double>();
   p.density_kg_m3 = j.at("density_kg_m3").get<double>();
-  p.model = modelNamed(j.at("model").get<std::string>());
+  p.method = named(methodNames, j.at("model").get<std::string>(), "model");
   p.cell_mm = j.at("cell_mm").get<double>();
   p.frames = j.at("frames").get<int>();
+  // Cases of before these could be set have the defaults.
+  p.tetEdge_mm = j.value("tet_edge_mm", p.tetEdge_mm);
+  p.tetToolEdge_mm = j.value("tet_tool_edge_mm", p.tetToolEdge_mm);
+  p.kinematics = named(kinematicsNames, j.value("kinematics", nameIn(kinematicsNames, p.kinematics)), "kinematics");
+  p.solver = named(solverNames, j.value("solver", nameIn(solverNames, p.solver)), "solver");
+  p.dynamic = j.value("dynamic", p.dynamic);
+  p.step_ms = j.value("step_ms", p.step_ms);
+  p.end_s = j.value("end_s", p.end_s);
+  p.registerRigidly = j.value("register_rigidly", p.registerRigidly);
   p.useMre = j.at("use_mre").get<bool>();
   p.atlasShear_kPa = j.at("atlas_shear_kPa").get<double>();
   p.retractorDiameter_mm = j.at("retractor_diameter_mm").get<double>();

@@ -1,5 +1,6 @@
 #include "session/session.h"
 
+#include <QCoreApplication>
 #include <QStandardPaths>
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,11 @@ constexpr int autosaveEvery_ms = 30000;
 
 QString plural(std::size_t n, const QString& one, const QString& many) {
   return n == 1 ? one : many.arg(static_cast<qulonglong>(n));
+}
+
+/// In the reader's language.
+QString nameOfAct(const std::string& text) {
+  return text.empty() ? QString() : QCoreApplication::translate("commands", text.c_str());
 }
 
 }  // namespace
@@ -122,10 +128,10 @@ bool Session::canRedo() const {
   return undo_.canRedo();
 }
 QString Session::undoText() const {
-  return tool_.state() == tools::ToolState::Drawing ? tr("vertex") : QString::fromStdString(undo_.undoText());
+  return tool_.state() == tools::ToolState::Drawing ? tr("vertex") : nameOfAct(undo_.undoText());
 }
 QString Session::redoText() const {
-  return QString::fromStdString(undo_.redoText());
+  return nameOfAct(undo_.redoText());
 }
 
 void Session::setShownPlane(const tools::SlicePlane& plane) {

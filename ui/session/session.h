@@ -55,9 +55,9 @@ struct CaseFiles {
   commands::Outlines contours;
   pipeline::Scene scene;
 };
-/// Writes contours.json and scene.json (and mri.nrrd, where no folder names the series) into the folder. Throws
-/// BadInput.
-void writeCase(const CaseFiles& files, const std::filesystem::path& folder);
+/// Writes the case into the folder (and mri.nrrd, where no folder names the series), for this window and for
+/// `glisson-cli run case.json`. Returns its version. Throws BadInput.
+int saveFiles(CaseRecord record, const CaseFiles& files, const std::filesystem::path& folder);
 
 /// Chooses the series by their roles and reads them. guessed: the scan before any role was corrected by hand. root: the
 /// folder that was opened. A missing elastogram is told in note; a missing MRI is a BadInput.
@@ -140,7 +140,7 @@ class Session : public QObject {
   QString runFolder() const;
 
   // Case
-  /// Writes case.json, contours.json and scene.json so that `glisson-cli run scene.json` gives the same numbers.
+  /// Writes case.json, contours.json and scene.json so that `glisson-cli run case.json` gives the same numbers.
   /// Throws BadInput; the outlines are kept.
   void saveCase(const QString& folder);
   void saveInBackground();                                   ///< into the folder the case is from

@@ -1,11 +1,11 @@
 // The case on disk: contours.json, scene.json, and where the images are.
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "dicom/rtstruct.h"
 #include "elastography/roi_from_structures.h"
 #include "image/io.h"
 #include "roi/contour_io.h"
 #include "roi/polygon.h"
-#include "session/atomic_file.h"
 #include "session/measured_contours.h"
 #include "session/session.h"
 
@@ -21,8 +21,21 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
       parameters_.useMre && images_.stiffness ? pipeline::MaterialSpec::Kind::Mre : pipeline::MaterialSpec::Kind::Atlas;
   s.setup.poisson = parameters_.poisson;
   s.setup.density = Density::fromKgPerM3(parameters_.density_kg_m3);
-  s.setup.model.kind = parameters_.model;
+  s.geometry.rigidRegistration = parameters_.registerRigidly && s.material.kind == pipeline::MaterialSpec::Kind::Mre;
+  s.setup.model = modelOf(parameters_.method);
   s.setup.model.meshfree.frames = parameters_.frames;
+  s.setup.model.cell_mm = parameters_.tetEdge_mm;
+  s.setup.model.toolCell_mm = parameters_.tetToolEdge_mm;
+  s.setup.kinematics = parameters_.kinematics;
+  s.setup.analysis.dynamic = parameters_.dynamic;
+  s.setup.analysis.h_ms = parameters_.step_ms;
+  s.setup.analysis.end_s = parameters_.end_s;
+  s.setup.condensed = parameters_.solver == Solver::Condensed;
+  s.setup.solver.kind = parameters_.solver == Solver::Cg           ? mechanics::SolverKind::Cg
+                        : parameters_.solver == Solver::Multigrid  ? mechanics::SolverKind::Multigrid
+                        : parameters_.solver == Solver::Factorised ? mechanics::SolverKind::Factorised
+                                                                   : mechanics::SolverKind::Auto;
+  s.setup.solver.element = s.setup.model.element;
   for (const char* surface : {"posterior", "superior"}) {
     retraction::SupportSpec abdomen;
     abdomen.kind = retraction::SupportSpec::Kind::Spring;
@@ -88,12 +101,6 @@ pipeline::Scene placed(const CaseFiles& files, const std::filesystem::path& fold
 
 }  // namespace
 
-void writeCase(const CaseFiles& files, const std::filesystem::path& folder) {
-  const pipeline::Scene s = placed(files, folder);
-  roi::writeContours(folder / "contours.json", files.contours);
-  writeAtomically(folder / "scene.json", pipeline::toJson(s));
-}
-
 CaseRecord Session::caseRecord(const std::filesystem::path& folder) const {
   CaseRecord record;
   record.source = path_.toStdString();
@@ -106,14 +113,10 @@ CaseRecord Session::caseRecord(const std::filesystem::path& folder) const {
   return record;
 }
 
-namespace {
-
 int saveFiles(CaseRecord record, const CaseFiles& files, const std::filesystem::path& folder) {
   record.sceneJson = pipeline::toJson(placed(files, folder));
   return writeCaseRecord(record, folder);
 }
-
-}  // namespace
 
 void Session::saveCase(const QString& folder) {
   const std::filesystem::path target = folder.toStdString();

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "phantom/phantom.h"
+#include "pipeline/case_folder.h"
 #include "session/session.h"
 
 namespace glisson::session {
@@ -143,7 +144,7 @@ void Session::openPath(const QString& path) {
       std::filesystem::weakly_canonical(std::filesystem::absolute(path.toStdString(), unknown), unknown);
   startLoad(
       [there](const Progress&) {
-        if (isCase(there)) return wantedCase(there);
+        if (pipeline::isCase(there)) return wantedCase(there);
         Wanted wanted;
         wanted.path = there;
         return wanted;
@@ -185,7 +186,8 @@ void Session::recover(const Journalled& journalled) {
   startLoad(
       [journalled](const Progress&) {
         Wanted wanted;
-        if (!journalled.caseFile.empty() && isCase(journalled.caseFile)) wanted = wantedCase(journalled.caseFile);
+        if (!journalled.caseFile.empty() && pipeline::isCase(journalled.caseFile))
+          wanted = wantedCase(journalled.caseFile);
         if (wanted.path.empty()) wanted.path = journalled.source;
         wanted.journalled = journalled;
         return wanted;

@@ -1,4 +1,4 @@
-// Running: the case is saved, then run from its files, so that the command line gives the same numbers.
+// Running: the case is saved into the work folder, then run from there by what the command line uses for a case too.
 #include "base/error.h"
 #include "session/session.h"
 
@@ -20,11 +20,11 @@ void Session::run() {
   auto result = std::make_shared<pipeline::RunResult>();
   const std::uint64_t revision = revision_;
   worker_.start(
-      [folder, result, files = caseFiles(folder)](const Progress& progress) {
-        writeCase(files, folder);
+      [folder, result, record = caseRecord(folder), files = caseFiles(folder)](const Progress& progress) {
+        saveFiles(record, files, folder);
         pipeline::RunOptions options;
         options.output = folder / "results";
-        *result = pipeline::run(pipeline::readScene(folder / "scene.json"), options, progress);
+        *result = pipeline::run(pipeline::readScene(folder / "case.json"), options, progress);
       },
       [this, result, revision](std::exception_ptr failure) {
         if (!failure) {

@@ -5,6 +5,7 @@
 #include "commands/change_mark.h"
 #include "commands/rename.h"
 #include "commands/replace_contours.h"
+#include "pipeline/case_folder.h"
 #include "pipeline/sources.h"
 #include "roi/agreement.h"
 #include "roi/contour_io.h"
@@ -149,9 +150,11 @@ void Session::loadSecondReader(const QString& file) {
   if (!file.isEmpty()) {
     if (!images_.mri) throw BadInput("open images first; outlines belong to an image series");
     const std::filesystem::path path = file.toStdString();
-    const std::filesystem::path folder = std::filesystem::is_directory(path) ? path : path.parent_path();
-    const std::filesystem::path contours = isCase(path) ? folder / "contours.json" : path;
-    pipeline::LoadedRoi roi = pipeline::loadRoi(contours, {}, 0);
+    pipeline::LoadedRoi roi;
+    if (pipeline::isCase(path))
+      roi.contours = roi::contoursFromJson(pipeline::readCase(path).contours, "contours.json");
+    else
+      roi = pipeline::loadRoi(path, {}, 0);
     if (!roi.contours) throw BadInput("a second reader's outlines are polygons: a contour file or RT Structure Set");
     second_ = std::move(*roi.contours);
   }

@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "commands/undo_stack.h"
 #include "session/act_command.h"
+#include "support/same_outlines.h"
 #include "tools/polygon_tool.h"
 
 namespace glisson::test {
@@ -53,16 +54,5 @@ struct ToolBench {
     key(tools::ToolKey::Enter);
   }
 };
-
-inline bool same(const roi::ContourStack& a, const roi::ContourStack& b) {
-  if (a.polygons.size() != b.polygons.size()) return false;
-  for (std::size_t p = 0; p < a.polygons.size(); ++p) {
-    const roi::Polygon &x = a.polygons[p], &y = b.polygons[p];
-    if (x.state != y.state || x.exclude != y.exclude || x.points_lps_mm.cols() != y.points_lps_mm.cols() ||
-        x.points_lps_mm != y.points_lps_mm)
-      return false;
-  }
-  return true;
-}
 
 }  // namespace glisson::test

@@ -1,4 +1,4 @@
-#include "session/atomic_file.h"
+#include "base/atomic_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 
-namespace glisson::session {
+namespace glisson {
 
 namespace {
 
@@ -33,7 +33,7 @@ struct Descriptor {
 
 void writeAtomically(const std::filesystem::path& file, const std::string& text) {
   std::filesystem::path beside = file;
-  beside += ".part";
+  beside += ".part" + std::to_string(::getpid());  // two programs never share it
   try {
     Descriptor out{::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
     if (out.fd < 0) fail(file, errno);
@@ -62,7 +62,7 @@ std::string readWhole(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
   if (!error && bytes > largest_bytes)
-    throw BadInput("'" + file.filename().string() + "' is larger than 256 MB; it is no file of a case");
+    throw BadInput("'" + file.filename().string() + "' is larger than 256 MB; it is not read as text");
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (in) text << in.rdbuf();
@@ -70,4 +70,4 @@ std::string readWhole(const std::filesystem::path& file) {
   return text.str();
 }
 
-}  // namespace glisson::session
+}  // namespace glisson
