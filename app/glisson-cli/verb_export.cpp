@@ -13,7 +13,7 @@ void addExport(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("export", "standard files of a scene or a run, by --to:" + names);
   auto request = std::make_shared<pipeline::ExportRequest>();
   auto quantity = std::make_shared<std::string>();
-  verb->add_option("source", request->source, "scene.json, or the folder of a run")->required();
+  verb->add_option("source", request->source, "scene.json, case.json, or the folder of a run")->required();
   verb->add_option("--to", request->formats, "formats, separated by commas")->required()->delimiter(',');
   verb->add_option("--quantity", *quantity, "modulus of exported stiffness, where it is not the measured one")
       ->check(CLI::IsMember({"shear", "youngs"}));

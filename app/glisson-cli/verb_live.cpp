@@ -57,7 +57,7 @@ int serveScene(const Arguments& a, const Context& context) {
 void addLive(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("live", "stream the retraction over OpenIGTLink; it follows the tool's pose");
   auto a = std::make_shared<Arguments>();
-  verb->add_option("scene", a->scene, "scene.json with a retractor")->required();
+  verb->add_option("scene", a->scene, "scene.json or case.json with a retractor")->required();
   verb->add_option("--port", a->options.port, "0 = any free one")->check(CLI::Range(0, 65535));
   verb->add_option("--rate", a->options.rate_hz, "frames a second");
   verb->add_option("--landmarks", a->options.landmarks, "landmarks sent at most");

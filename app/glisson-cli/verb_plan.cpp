@@ -9,7 +9,7 @@ void addPlan(CLI::App& app, Context& context) {
   CLI::App* verb =
       app.add_subcommand("plan", "what a scene needs and what it leaves out, with reasons and predicted size");
   auto scene = std::make_shared<std::filesystem::path>();
-  verb->add_option("scene", *scene, "scene.json")->required();
+  verb->add_option("scene", *scene, "scene.json, or case.json as the workstation saves it")->required();
   verb->callback([&context, scene] {
     context.action = [&context, scene] {
       Json j;

@@ -44,7 +44,7 @@ void addRun(CLI::App& app, Context& context) {
   auto scenePath = std::make_shared<std::filesystem::path>();
   auto colourBlind = std::make_shared<bool>(false);
   auto overrideChecks = std::make_shared<bool>(false);
-  verb->add_option("scene", *scenePath, "scene.json")->required();
+  verb->add_option("scene", *scenePath, "scene.json, or case.json as the workstation saves it")->required();
   verb->add_flag("--colour-blind", *colourBlind, "orange and blue instead of red and blue");
   verb->add_flag("--override", *overrideChecks, "take MRI and elastogram of other days or patients nevertheless");
   verb->callback([&context, scenePath, colourBlind, overrideChecks] {
@@ -56,7 +56,8 @@ void addRun(CLI::App& app, Context& context) {
                                : context.renderBackend == "x11" ? render::RenderBackend::X11
                                                                 : render::RenderBackend::Auto);
       pipeline::RunOptions options;
-      options.output = context.output.empty() ? scenePath->parent_path() / "glisson-run" : context.output;
+      const auto here = std::filesystem::is_directory(*scenePath) ? *scenePath : scenePath->parent_path();
+      options.output = context.output.empty() ? here / "glisson-run" : context.output;
       options.palette = *colourBlind ? render::Palette::ColourBlind : render::Palette::RedBlue;
       const pipeline::RunResult r = pipeline::run(scene, options, context.progress());
       context.print(Json::parse(r.json), summary(r));

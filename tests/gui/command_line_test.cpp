@@ -83,8 +83,8 @@ class CommandLine : public QObject, private glisson::test::WindowBench {
     const Answer a = cli({"run", path("case/case.json"), "--output", path("again"), "--json", "--quiet"});
     QVERIFY2(a.code == 0, qPrintable(a.error));
     expectSame(read(folder() / "work" / "results" / "run.json"), read(folder() / "again" / "run.json"));
-    QCOMPARE(Json::parse(a.out.toStdString()).at("difference"),
-             read(folder() / "work" / "results" / "run.json").at("difference"));
+    QVERIFY(Json::parse(a.out.toStdString()).at("difference") ==
+            read(folder() / "work" / "results" / "run.json").at("difference"));
   }
 
   void aVersionGivesWhatItGaveThen() {
