@@ -7,6 +7,7 @@
 #include "image/io.h"
 #include "mechanics/sites.h"
 #include "pipeline/detail/needs.h"
+#include "pipeline/region_file.h"
 
 namespace glisson::pipeline {
 
@@ -46,7 +47,8 @@ double predictCells(const Scene& s) {
   const GeometrySpec& g = s.geometry;
   if (g.kind == GeometrySpec::Kind::Box) return g.size_mm.cwiseQuotient(g.cell_mm).array().round().prod();
   if (g.kind == GeometrySpec::Kind::Mask) {
-    const image::Mask mask = image::readMask(g.file, g.label);
+    std::vector<std::string> ignored;
+    const image::Mask mask = readRegion(g.file, g.label, surfaceCell_mm(g), ignored);
     double filled = 0;
     for (const std::uint8_t v : mask.values) filled += v;
     if (g.cell_mm.x() > 0) filled *= mask.grid.voxelVolume_mm3() / g.cell_mm.prod();
