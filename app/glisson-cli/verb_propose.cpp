@@ -41,6 +41,7 @@ int propose(const Arguments& a, const Context& context) {
   j["seed_lps_mm"] = {seed_lps.x(), seed_lps.y(), seed_lps.z()};
   if (polygons > 0) j["polygons"] = polygons;
   j["warnings"] = in.warnings;
+  for (const std::string& note : p.notes) j["warnings"].push_back(note);
   j["warnings"].push_back("a proposal to be corrected by hand, not a result");
   if (p.touchesBorder) j["warnings"].push_back("the proposal touches the border of the image: cut off, or leaked");
   j["files"] = {context.output.string()};
