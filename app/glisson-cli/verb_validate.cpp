@@ -1,4 +1,4 @@
-#include "study/beam.h"
+#include "study/beam_report.h"
 #include "study_json.h"
 
 namespace glisson::cli {
@@ -37,9 +37,7 @@ int validate(const study::BeamOptions& options, const Context& context) {
   std::string text = s.summary() + study::table(s.rows);
   j["files"] = Json::array();
   if (!context.output.empty()) {
-    render::XyChart chart = study::chart(s.rows, study::converged3d, "Cantilever: error against run time", s.caption());
-    chart.lines.push_back({.value = s.allowed_mm, .label = "1 % of a 1.64 mm voxel", .colour = {200, 0, 160}});
-    for (const auto& file : study::write(context.output, "validate-beam", s.rows, chart)) {
+    for (const auto& file : study::writeBeamStudy(context.output, s)) {
       j["files"].push_back(file.string());
       text += "written " + file.string() + "\n";
     }

@@ -20,8 +20,8 @@ using Json = nlohmann::ordered_json;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// The pictures that the report shows, of those a run draws.
-constexpr std::array<const char*, 3> shown = {"overlay-retractor.png", "overlay-largest-difference.png",
-                                              "overlay-3d-anterior.png"};
+constexpr std::array<const char*, shownPictures> shown = {"overlay-retractor.png", "overlay-largest-difference.png",
+                                                          "overlay-3d-anterior.png"};
 
 std::string keyOf(const std::string& scene, const std::string& recordKey) {
   const std::string all = recordKey + withoutPaths(scene) + version();

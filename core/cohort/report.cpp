@@ -4,11 +4,12 @@
 
 #include "base/quantity.h"
 #include "base/version.h"
+#include "cohort/detail/report_words.h"
+#include "cohort/detail/sensitivity_chart.h"
 #include "cohort/detail/summary.h"
 #include "render/charts.h"
 #include "render/picture.h"
-#include "report/page.h"
-#include "report/text.h"
+#include "render/svg_painter.h"
 
 namespace glisson::cohort::detail {
 namespace {
@@ -23,13 +24,6 @@ constexpr render::Rgb orange{230, 126, 0};
 Json orNull(double v) {
   return std::isfinite(v) ? Json(v) : Json(nullptr);
 }
-std::string orDash(double v, int digits = 3) {
-  return std::isfinite(v) ? number(v, digits) : "–";
-}
-std::string percent(double fraction) {
-  return number(100.0 * fraction, 3) + " %";
-}
-
 Json toJson(const Spread& s) {
   return {{"n", s.n},
           {"mean", orNull(s.mean)},
@@ -37,15 +31,6 @@ Json toJson(const Spread& s) {
           {"median", orNull(s.median)},
           {"min", orNull(s.min)},
           {"max", orNull(s.max)}};
-}
-
-std::string quantityOf(const StiffnessStudy& s) {
-  return s.asPublished ? "Young's modulus E = 3µ (as published)" : "shear modulus µ";
-}
-
-std::string inWords(const Spread& s, const char* unit) {
-  return orDash(s.mean) + " ± " + orDash(s.sd) + " " + unit + " (median " + orDash(s.median) + ", " + orDash(s.min) +
-         " to " + orDash(s.max) + ", n = " + std::to_string(s.n) + ")";
 }
 
 render::Histogram histogram(const StiffnessStudy& s) {
@@ -57,7 +42,7 @@ render::Histogram histogram(const StiffnessStudy& s) {
   h.binWidth = s.asPublished ? 1.5 : 0.5;
   h.lines = {{s.atlas_kPa, "atlas " + number(s.atlas_kPa) + " kPa", orange}};
   h.caption = percent(s.fractionOver1kPa) + " more than 1 kPa stiffer than the atlas, " + percent(s.fractionOverTwice) +
-              " more than twice as stiff. " + researchUseOnly + ".";
+              " more than twice as stiff.";
   return h;
 }
 
@@ -69,39 +54,45 @@ render::BoxPlot box(const char* title, const std::vector<double>& values, const 
   b.y.low = 0.0;
   b.boxes = {{std::to_string(values.size()) + " patients", values}};
   b.lines = {line};
-  b.caption = caption + " " + researchUseOnly + ".";
+  b.caption = caption;
   return b;
 }
 
-render::BoxPlot sensitivityChart(const std::vector<SensitivityRow>& rows, double significant_mm) {
-  render::BoxPlot b;
-  b.title = "Which assumption changes the conclusion?";
-  b.y.title = "Difference at the retractor (mm)";
-  b.y.low = 0.0;
-  for (const SensitivityRow& r : rows) {
-    auto at = std::find_if(b.boxes.begin(), b.boxes.end(), [&](const auto& x) { return x.label == r.variation; });
-    if (at == b.boxes.end()) {
-      b.boxes.push_back({r.variation, {}});
-      at = std::prev(b.boxes.end());
-    }
-    if (std::isfinite(r.at_retractor_mm)) at->values.push_back(r.at_retractor_mm);
+SensitivityChart sensitivityChart(const Summary& s) {
+  SensitivityChart c;
+  c.title = "Which assumption changes the conclusion?";
+  c.axis = "Difference at the retractor, MRE against atlas (mm)";
+  c.line = {defaults::clinicallySignificant.mm(), "clinically significant, 5 mm", orange};
+  c.caption =
+      "The chosen patients under one changed assumption at a time. The last two rows, on 10 mm cells, are to be "
+      "compared "
+      "with each other only.";
+  for (const Chosen& chosen : s.chosen) c.patients.push_back(chosen.what + " (" + chosen.id + ")");
+  for (const SensitivityRow& r : s.sensitivity) {
+    auto at = std::find_if(c.rows.begin(), c.rows.end(), [&](const auto& x) { return x.assumption == r.variation; });
+    if (at == c.rows.end()) at = c.rows.insert(at, {r.variation, std::vector<double>(s.chosen.size(), std::nan(""))});
+    for (std::size_t p = 0; p < s.chosen.size(); ++p)
+      if (s.chosen[p].id == r.id) at->values[p] = r.at_retractor_mm;
   }
-  b.boxes.erase(std::remove_if(b.boxes.begin(), b.boxes.end(), [](const auto& x) { return x.values.empty(); }),
-                b.boxes.end());
-  b.lines = {{significant_mm, "clinically significant", orange}};
-  b.caption = std::string("The chosen patients under one changed assumption at a time. ") + researchUseOnly + ".";
-  return b;
+  return c;
 }
 
 template <typename Chart>
-fs::path writeChart(const Chart& chart, const fs::path& folder, const std::string& name, std::vector<fs::path>& files) {
+void addChart(report::Page& page, const Chart& chart, const std::string& name, const std::string& caption,
+              const fs::path& folder, std::vector<fs::path>& files) {
   fs::create_directories(folder);
-  const fs::path png = folder / (name + ".png");
-  render::writePng(png, render::draw(chart));
-  files.push_back(png);
-  writeWhole(folder / (name + ".svg"), render::svg(chart));
-  files.push_back(folder / (name + ".svg"));
-  return png;
+  const render::ChartSize size;
+  const fs::path png = folder / (name + ".png"), vector = folder / (name + ".svg");
+  render::Picture picture = render::blankPicture(size.width, size.height, {255, 255, 255});
+  render::RasterPainter pixels(picture);
+  render::SvgPainter lines(size.width, size.height);
+  for (render::Painter* painter : {static_cast<render::Painter*>(&pixels), static_cast<render::Painter*>(&lines)})
+    paint(*painter, chart, size);
+  render::writePng(png, picture);
+  writeWhole(vector, lines.document());
+  files.insert(files.end(), {png, vector});
+  page.drawing(
+      png, [chart, size](render::Painter& painter) { paint(painter, chart, size); }, size, caption);
 }
 
 std::string patientsCsv(const Summary& s) {
@@ -167,63 +158,6 @@ std::string summaryJson(const Summary& s) {
   return j.dump(1) + "\n";
 }
 
-/// One row per value; a list of plain values is one row.
-void flatten(const Json& j, const std::string& path, std::vector<std::pair<std::string, std::string>>& rows) {
-  const bool list = j.is_array() && std::none_of(j.begin(), j.end(), [](const Json& x) { return x.is_structured(); });
-  if (!j.is_structured() || list) {
-    rows.emplace_back(path, j.is_string() ? j.get<std::string>() : j.dump());
-    return;
-  }
-  for (const auto& [key, value] : j.items()) {
-    const std::string step = j.is_array() ? std::to_string(std::stoi(key) + 1) : key;
-    if (key != "schema" && key != "outputs") flatten(value, path.empty() ? step : path + " " + step, rows);
-  }
-}
-
-void methods(report::Page& page, const Summary& s) {
-  page.heading("Methods");
-  page.paragraph(
-      "Every patient's region of interest was mapped onto the elastogram by patient geometry; voxels whose centre lies "
-      "outside it, or whose confidence is below 0.95, were left out. The mean " +
-      quantityOf(s.stiffness) + " of each patient is compared with the atlas value of " +
-      number(s.stiffness.atlas_kPa) +
-      " kPa. Each liver was then retracted twice under the same load, once with its measured stiffness and once with "
-      "the "
-      "atlas stiffness, and the two displacements were compared over the whole liver and at the retractor.");
-  if (!s.sceneParameters.empty()) {
-    page.paragraph("Parameters of the retraction (of the first patient that is left; files are not named):");
-    std::vector<std::pair<std::string, std::string>> rows;
-    flatten(Json::parse(s.sceneParameters), "", rows);
-    page.table(rows);
-  }
-}
-
-void sensitivityTable(report::Page& page, const Summary& s) {
-  std::vector<std::string> header = {"Assumption"};
-  for (const Chosen& c : s.chosen) header.push_back(c.id + " (" + c.what + "), mm");
-  header.push_back("beyond 5 mm");
-  std::vector<std::vector<std::string>> rows;
-  for (const SensitivityRow& r : s.sensitivity) {
-    if (rows.empty() || rows.back().front() != r.variation) {
-      const bool seen = std::any_of(rows.begin(), rows.end(), [&](const auto& x) { return x.front() == r.variation; });
-      if (seen) continue;
-      std::vector<std::string> row = {r.variation};
-      int beyond = 0;
-      for (const Chosen& c : s.chosen) {
-        const auto at = std::find_if(s.sensitivity.begin(), s.sensitivity.end(), [&](const SensitivityRow& x) {
-          return x.variation == r.variation && x.id == c.id;
-        });
-        const bool there = at != s.sensitivity.end() && std::isfinite(at->at_retractor_mm);
-        row.push_back(there ? number(at->at_retractor_mm, 3) : "–");
-        if (there && at->at_retractor_mm >= defaults::clinicallySignificant.mm()) ++beyond;
-      }
-      row.push_back(std::to_string(beyond) + " of " + std::to_string(s.chosen.size()));
-      rows.push_back(std::move(row));
-    }
-  }
-  page.table(header, rows);
-}
-
 }  // namespace
 
 std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& options, std::string& json) {
@@ -245,32 +179,36 @@ std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& option
               {"Failed", std::to_string(b.failed)},
               {"Left in the retraction study", std::to_string(b.left)},
               {"Software", "Glisson " + version()}});
+  inShort(page, s);
   methods(page, s);
 
   page.heading("Stiffness over the cohort");
   if (!s.stiffness.values_kPa.empty()) {
     const render::Histogram h = histogram(s.stiffness);
-    page.picture(writeChart(h, figures, "stiffness-histogram", files),
-                 "Mean " + quantityOf(s.stiffness) + ": " + inWords(s.stiffness.spread, "kPa") + ". " +
-                     percent(s.stiffness.fractionOver1kPa) + " of the patients are more than 1 kPa stiffer than the " +
-                     number(s.stiffness.atlas_kPa) + " kPa atlas, " + percent(s.stiffness.fractionOverTwice) +
-                     " more than twice as stiff.");
+    addChart(page, h, "stiffness-histogram",
+             "Mean " + quantityOf(s.stiffness) + ": " + inWords(s.stiffness.spread, "kPa") + ". " +
+                 percent(s.stiffness.fractionOver1kPa) + " of the patients are more than 1 kPa stiffer than the " +
+                 number(s.stiffness.atlas_kPa) + " kPa atlas, " + percent(s.stiffness.fractionOverTwice) +
+                 " more than twice as stiff.",
+             figures, files);
   } else {
     page.warning("No patient's stiffness could be measured.");
   }
 
   page.heading("Retraction: measured against atlas stiffness");
   if (b.left > 0) {
-    page.picture(writeChart(box("Mean over the whole liver", b.mean_mm,
-                                {defaults::mriVoxel.mm(), "one MRI voxel, 1.64 mm", magenta},
-                                percent(b.fractionWithinVoxel) + " of the patients within one voxel."),
-                            figures, "difference-mean", files),
-                 "Mean displacement difference over the liver: " + inWords(b.mean, "mm") + ".");
-    page.picture(writeChart(box("At the retractor", b.at_retractor_mm,
-                                {defaults::clinicallySignificant.mm(), "clinically significant, 5 mm", orange},
-                                percent(b.fractionSignificant) + " of the patients at 5 mm or more."),
-                            figures, "difference-retractor", files),
-                 "Displacement difference at the retractor: " + inWords(b.atRetractor, "mm") + ".");
+    addChart(page,
+             box("Mean over the whole liver", b.mean_mm, {defaults::mriVoxel.mm(), "one MRI voxel, 1.64 mm", magenta},
+                 percent(b.fractionWithinVoxel) + " of the patients within one voxel."),
+             "difference-mean", "Mean displacement difference over the liver: " + inWords(b.mean, "mm") + ".", figures,
+             files);
+    addChart(page,
+             box("At the retractor", b.at_retractor_mm,
+                 {defaults::clinicallySignificant.mm(), "clinically significant, 5 mm", orange},
+                 percent(b.fractionSignificant) + " of the patients at 5 mm or more."),
+             "difference-retractor", "Displacement difference at the retractor: " + inWords(b.atRetractor, "mm") + ".",
+             figures, files);
+    reservations(page, s);
   } else {
     page.warning("No retraction came to an end; the reasons are listed below.");
   }
@@ -286,15 +224,16 @@ std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& option
                        "grid shows millimetres.");
       files.push_back(p);
     }
+    if (pictures->second.size() < shownPictures)
+      page.warning("Not every picture of " + c.id +
+                   " could be drawn on this machine. Where they can be, the same command adds them.");
   }
 
   if (std::any_of(s.sensitivity.begin(), s.sensitivity.end(),
                   [&](const SensitivityRow& r) { return r.variation != s.sensitivity.front().variation; })) {
     page.heading("Sensitivity to what the study leaves open");
-    const render::BoxPlot chart = sensitivityChart(s.sensitivity, defaults::clinicallySignificant.mm());
-    if (!chart.boxes.empty())
-      page.picture(writeChart(chart, figures, "sensitivity", files),
-                   "Difference at the retractor of the chosen patients, one assumption changed at a time.");
+    addChart(page, sensitivityChart(s), "sensitivity",
+             "Difference at the retractor of the chosen patients, one assumption changed at a time.", figures, files);
     sensitivityTable(page, s);
   }
 

@@ -26,4 +26,12 @@ void Page::picture(const std::filesystem::path& png, const std::string& caption)
   blocks_.emplace_back(Figure{.png = png, .caption = caption});
 }
 
+void Page::drawing(const std::filesystem::path& png, std::function<void(render::Painter&)> drawing,
+                   const render::ChartSize& size, const std::string& caption) {
+  picture(png, caption);
+  auto& figure = std::get<Figure>(blocks_.back());
+  figure.drawing = std::move(drawing);
+  figure.size = size;
+}
+
 }  // namespace glisson::report

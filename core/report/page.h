@@ -53,11 +53,13 @@ class Page {
   void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
   /// A PNG file with a caption. Throws BadInput where it cannot be read.
   void picture(const std::filesystem::path& png, const std::string& caption);
-  /// A chart that was drawn to a PNG file: the file goes into HTML, the chart itself into PDF.
+  /// A chart that was drawn to a PNG file: the file goes into HTML, the drawing itself into PDF. Throws as picture.
+  void drawing(const std::filesystem::path& png, std::function<void(render::Painter&)> drawing,
+               const render::ChartSize& size, const std::string& caption);
   template <typename Chart>
   void chart(const std::filesystem::path& png, const Chart& chart, const std::string& caption) {
-    picture(png, caption);
-    std::get<Figure>(blocks_.back()).drawing = [chart](render::Painter& paint) { render::paint(paint, chart); };
+    drawing(
+        png, [chart](render::Painter& painter) { render::paint(painter, chart); }, {}, caption);
   }
 
   const std::string& title() const { return title_; }

@@ -211,7 +211,7 @@ Layout::Placed Layout::placed(const Figure& b) {
   p.caption = wrapped(b.caption, captionSize, column);
   const double below = static_cast<double>(p.caption.size()) * captionSize * leading + 12.0;
   // Two to a sheet where they are no taller than wide; never coarser than 96 pixels an inch.
-  const double tallest = std::max(0.5 * (bottom - margin) - below, 200.0);
+  const double tallest = std::max(0.47 * (bottom - margin) - below, 200.0);
   p.scale = std::min({column / size.width, tallest / size.height, 0.75});
   p.width = p.scale * size.width;
   p.picture = p.scale * size.height;

@@ -17,14 +17,14 @@ std::string cell(double value) {
   return std::isfinite(value) ? report::number(value, 10) : std::string();
 }
 
+}  // namespace
+
 void writeText(const std::filesystem::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
   if (!out) throw BadInput("cannot write " + file.string() + "; check that the folder exists and may be written");
 }
-
-}  // namespace
 
 void markPareto(std::vector<Row>& rows) {
   std::map<std::string, std::vector<std::size_t>> byReference;
@@ -114,6 +114,17 @@ render::XyChart chart(const std::vector<Row>& rows, const std::string& reference
   return c;
 }
 
+std::vector<std::filesystem::path> writeChart(const std::filesystem::path& folder, const std::string& name,
+                                              const render::XyChart& chart) {
+  std::vector<std::filesystem::path> files;
+  if (chart.series.empty()) return files;
+  files.push_back(folder / (name + ".png"));
+  render::writePng(files.back(), render::draw(chart));
+  files.push_back(folder / (name + ".svg"));
+  writeText(files.back(), render::svg(chart));
+  return files;
+}
+
 std::vector<std::filesystem::path> write(const std::filesystem::path& folder, const std::string& name,
                                          const std::vector<Row>& rows, const render::XyChart& chart) {
   std::error_code failed;
@@ -121,11 +132,7 @@ std::vector<std::filesystem::path> write(const std::filesystem::path& folder, co
   if (failed) throw BadInput("cannot make the folder " + folder.string() + ": " + failed.message());
   std::vector<std::filesystem::path> files = {folder / (name + ".csv")};
   writeText(files.back(), csv(rows));
-  if (chart.series.empty()) return files;
-  files.push_back(folder / (name + ".png"));
-  render::writePng(files.back(), render::draw(chart));
-  files.push_back(folder / (name + ".svg"));
-  writeText(files.back(), render::svg(chart));
+  for (const auto& drawn : writeChart(folder, name, chart)) files.push_back(drawn);
   return files;
 }
 

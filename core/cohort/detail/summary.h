@@ -27,6 +27,9 @@ struct SensitivityRow {
   double mean_mm = 0.0, at_retractor_mm = 0.0;
 };
 
+/// How many pictures the report shows of each chosen patient.
+inline constexpr std::size_t shownPictures = 3;
+
 /// Everything that the summary shows.
 struct Summary {
   std::vector<CaseRecord> records;

@@ -1,0 +1,163 @@
+#include "cohort/detail/report_words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/quantity.h"
+#include "cohort/detail/summary.h"
+
+namespace glisson::cohort::detail {
+
+using report::number;
+
+std::string orDash(double v, int digits) {
+  return std::isfinite(v) ? number(v, digits) : "–";
+}
+std::string percent(double fraction) {
+  return number(100.0 * fraction, 3) + " %";
+}
+
+std::string quantityOf(const StiffnessStudy& s) {
+  return s.asPublished ? "Young's modulus E = 3µ (as published)" : "shear modulus µ";
+}
+
+std::string inWords(const Spread& s, const char* unit) {
+  return orDash(s.mean) + " ± " + orDash(s.sd) + " " + unit + " (median " + orDash(s.median) + ", " + orDash(s.min) +
+         " to " + orDash(s.max) + ", n = " + std::to_string(s.n) + ")";
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// One row per value; a list of plain values is one row.
+void flatten(const Json& j, const std::string& path, std::vector<std::pair<std::string, std::string>>& rows) {
+  const bool list = j.is_array() && std::none_of(j.begin(), j.end(), [](const Json& x) { return x.is_structured(); });
+  if (!j.is_structured() || list) {
+    rows.emplace_back(path, j.is_string() ? j.get<std::string>() : j.dump());
+    return;
+  }
+  for (const auto& [key, value] : j.items()) {
+    const std::string step = j.is_array() ? std::to_string(std::stoi(key) + 1) : key;
+    if (key != "schema" && key != "outputs") flatten(value, path.empty() ? step : path + " " + step, rows);
+  }
+}
+
+/// How many of the chosen patients are at 5 mm or more under one assumption.
+std::size_t significantUnder(const Summary& s, const std::string& variation) {
+  return static_cast<std::size_t>(
+      std::count_if(s.sensitivity.begin(), s.sensitivity.end(), [&](const SensitivityRow& r) {
+        return r.variation == variation && r.at_retractor_mm >= defaults::clinicallySignificant.mm();
+      }));
+}
+
+}  // namespace
+
+void inShort(report::Page& page, const Summary& s) {
+  page.heading("In short");
+  std::vector<std::string> items;
+  if (!s.stiffness.values_kPa.empty())
+    items.push_back("Stiffness (" + quantityOf(s.stiffness) + "): " + percent(s.stiffness.fractionOver1kPa) + " of " +
+                    std::to_string(s.stiffness.values_kPa.size()) + " patients are more than 1 kPa above " +
+                    number(s.stiffness.atlas_kPa) + " kPa, " + percent(s.stiffness.fractionOverTwice) +
+                    " are more than twice as stiff.");
+  if (s.retraction.left > 0)
+    items.push_back("Retraction, measured against atlas stiffness: " + percent(s.retraction.fractionWithinVoxel) +
+                    " of " + std::to_string(s.retraction.left) +
+                    " patients agree within one MRI voxel on average over the liver; at the retractor " +
+                    percent(s.retraction.fractionSignificant) + " differ by 5 mm or more.");
+  std::string changing;
+  std::vector<std::string> seen;
+  for (const SensitivityRow& r : s.sensitivity) {
+    if (std::find(seen.begin(), seen.end(), r.variation) != seen.end()) continue;
+    seen.push_back(r.variation);
+    const std::size_t n = significantUnder(s, r.variation);
+    if (seen.size() > 1 && n != significantUnder(s, seen.front()))
+      changing += (changing.empty() ? "" : "; ") + r.variation + " (" + std::to_string(n) + ")";
+  }
+  if (seen.size() > 1)
+    items.push_back(
+        "Of the " + std::to_string(s.chosen.size()) + " patients shown, " +
+        std::to_string(significantUnder(s, seen.front())) + " are at 5 mm or more as simulated; " +
+        (changing.empty() ? "no assumption changes that number." : "another number under: " + changing + "."));
+  page.list(items);
+  if (s.stiffness.asPublished)
+    page.warning(
+        "As published: Young's moduli are compared with 2.1 kPa, which is the shear modulus of healthy livers. As E = "
+        "3µ, "
+        "a liver with just the atlas' stiffness counts as three times as stiff here. Without this option like is "
+        "compared "
+        "with like.");
+}
+
+void methods(report::Page& page, const Summary& s) {
+  page.heading("Methods");
+  page.paragraph(
+      "Every patient's region of interest was mapped onto the elastogram by patient geometry; voxels whose centre lies "
+      "outside it, or whose confidence is below 0.95, were left out. The mean " +
+      quantityOf(s.stiffness) + " of each patient is compared with the atlas value of " +
+      number(s.stiffness.atlas_kPa) +
+      " kPa. Each liver was then retracted twice under the same load, once with its measured stiffness and once with "
+      "the "
+      "atlas stiffness, and the two displacements were compared over the whole liver and at the retractor.");
+  if (!s.sceneParameters.empty()) {
+    page.paragraph("Parameters of the retraction (of the first patient that is left; files are not named):");
+    std::vector<std::pair<std::string, std::string>> rows;
+    flatten(Json::parse(s.sceneParameters), "", rows);
+    page.table(rows);
+  }
+}
+
+void reservations(report::Page& page, const Summary& s) {
+  std::size_t beyond = 0;
+  std::vector<double> strain, rotation, error;
+  for (const CaseRecord& r : s.records) {
+    if (r.outcome.status != CaseOutcome::Status::Done) continue;
+    if (!r.linear_valid) ++beyond;
+    strain.push_back(r.p95_strain);
+    rotation.push_back(r.rotation_deg);
+    error.push_back(r.discretisation_mm);
+  }
+  if (beyond > 0)
+    page.warning(
+        "In " + std::to_string(beyond) + " of " + std::to_string(s.retraction.left) +
+        " patients strains or rotations are larger than linear elasticity allows for (in the median patient 5 % "
+        "of the liver strain by more than " +
+        percent(spreadOf(strain).median) + ", and the largest rotation is " + orDash(spreadOf(rotation).median) +
+        "°). The differences are those of the linear model that was asked for.");
+  const Spread e = spreadOf(error);
+  if (e.n > 0)
+    page.paragraph("The largest discretisation error of a displacement, estimated from cells twice as large, is " +
+                   inWords(e, "mm") +
+                   ". It is an error of each of the two displacements, largest under the edge of the retractor; both "
+                   "models share cells and load, so that much of it, but not all, cancels in their difference.");
+}
+
+void sensitivityTable(report::Page& page, const Summary& s) {
+  std::vector<std::string> header = {"Assumption"};
+  for (const Chosen& c : s.chosen) header.push_back(c.id + " (" + c.what + "), mm");
+  header.push_back("beyond 5 mm");
+  std::vector<std::vector<std::string>> rows;
+  for (const SensitivityRow& r : s.sensitivity) {
+    if (rows.empty() || rows.back().front() != r.variation) {
+      const bool seen = std::any_of(rows.begin(), rows.end(), [&](const auto& x) { return x.front() == r.variation; });
+      if (seen) continue;
+      std::vector<std::string> row = {r.variation};
+      int beyond = 0;
+      for (const Chosen& c : s.chosen) {
+        const auto at = std::find_if(s.sensitivity.begin(), s.sensitivity.end(), [&](const SensitivityRow& x) {
+          return x.variation == r.variation && x.id == c.id;
+        });
+        const bool there = at != s.sensitivity.end() && std::isfinite(at->at_retractor_mm);
+        row.push_back(there ? number(at->at_retractor_mm, 3) : "–");
+        if (there && at->at_retractor_mm >= defaults::clinicallySignificant.mm()) ++beyond;
+      }
+      row.push_back(std::to_string(beyond) + " of " + std::to_string(s.chosen.size()));
+      rows.push_back(std::move(row));
+    }
+  }
+  page.table(header, rows);
+}
+
+}  // namespace glisson::cohort::detail
