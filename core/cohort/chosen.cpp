@@ -19,6 +19,14 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
+/// Why a run drew no picture; empty where it does not say.
+std::string noPictureBecause(const Json& run) {
+  if (run.is_object() && run.contains("warnings"))
+    for (const Json& w : run["warnings"])
+      if (w.is_string() && w.get<std::string>().rfind("no picture is drawn", 0) == 0) return w;
+  return {};
+}
+
 /// The pictures that the report shows, of those a run draws.
 constexpr std::array<const char*, shownPictures> shown = {"overlay-retractor.png", "overlay-largest-difference.png",
                                                           "overlay-3d-anterior.png"};
@@ -77,7 +85,8 @@ void studyChosen(Summary& summary, const std::map<std::string, std::string>& sce
       const bool first = v.name == list.front().name;
       bool have = cache.contains(v.name) && cache[v.name].value("key", "") == key;
       for (const char* name : shown)
-        have = have && (!first || fs::is_regular_file(options.output / "figures" / (c.id + "-" + name)));
+        have = have && (!first || cache[v.name].contains("no_picture") ||
+                        fs::is_regular_file(options.output / "figures" / (c.id + "-" + name)));
       if (have) {
         kept[v.name] = cache[v.name];
         continue;
@@ -103,6 +112,7 @@ void studyChosen(Summary& summary, const std::map<std::string, std::string>& sce
           result["mean_mm"] = at(j, "mean_mm");
           result["at_retractor_mm"] = at(j, "at_retractor_mm");
         }
+        if (const std::string why = noPictureBecause(j); t.pictures && !why.empty()) result["no_picture"] = why;
         if (t.pictures) {
           const fs::path drawn = jobs[i].arguments[3];
           fs::create_directories(options.output / "figures");
@@ -125,6 +135,7 @@ void studyChosen(Summary& summary, const std::map<std::string, std::string>& sce
     for (const Variation& v : variations(scene->second)) {
       if (!known[c.id].contains(v.name)) continue;
       ordered[v.name] = known[c.id][v.name];
+      if (ordered[v.name].contains("no_picture")) summary.pictureNotes[c.id] = ordered[v.name]["no_picture"];
       const auto value = [&](const char* key) {
         const Json& x = ordered[v.name][key];
         return x.is_number() ? x.get<double>() : none;

@@ -213,20 +213,25 @@ std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& option
     page.warning("No retraction came to an end; the reasons are listed below.");
   }
 
-  if (!s.pictures.empty()) page.heading("Four patients chosen by the difference at the retractor");
+  const bool shown = !s.pictures.empty() || !s.pictureNotes.empty();
+  if (shown) page.heading("Four patients chosen by the difference at the retractor");
   for (const Chosen& c : s.chosen) {
+    if (!shown) break;
     const auto pictures = s.pictures.find(c.id);
-    if (pictures == s.pictures.end()) continue;
-    for (const fs::path& p : pictures->second) {
-      page.picture(p,
-                   c.what + ", " + c.id + ": " + number(c.at_retractor_mm, 3) +
-                       " mm at the retractor. Blue: measured stiffness; red: atlas; purple where they agree; the green "
-                       "grid shows millimetres.");
-      files.push_back(p);
-    }
-    if (pictures->second.size() < shownPictures)
-      page.warning("Not every picture of " + c.id +
-                   " could be drawn on this machine. Where they can be, the same command adds them.");
+    const auto note = s.pictureNotes.find(c.id);
+    const std::string who = c.what + ", " + c.id + ": " + number(c.at_retractor_mm, 3) + " mm at the retractor. ";
+    if (pictures != s.pictures.end())
+      for (const fs::path& p : pictures->second) {
+        page.picture(p, who +
+                            "Blue: measured stiffness; red: atlas; purple where they agree; the green grid shows "
+                            "millimetres.");
+        files.push_back(p);
+      }
+    if (note != s.pictureNotes.end())
+      page.warning(who + note->second);
+    else if (pictures == s.pictures.end() || pictures->second.size() < shownPictures)
+      page.warning(who +
+                   "Not every picture could be drawn on this machine; where it can be, the same command adds it.");
   }
 
   if (std::any_of(s.sensitivity.begin(), s.sensitivity.end(),

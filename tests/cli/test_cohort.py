@@ -20,6 +20,15 @@ def digests(folder):
             if p.is_file() and p.name != "timings.csv"}
 
 
+def coarse_patients(folder, number):
+    """Synthetic patients whose livers are cut into cells of 8 mm: a cohort that takes seconds."""
+    cli("phantom", "--cases", number, "--seed", 11, "--cohort", "paper", "--output", folder, "--quiet")
+    for scene_file in folder.glob("*/scene.json"):
+        scene = json.loads(scene_file.read_text())
+        scene["geometry"]["cell_mm"] = 8
+        scene_file.write_text(json.dumps(scene))
+
+
 class Cohort(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -27,12 +36,9 @@ class Cohort(unittest.TestCase):
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = pathlib.Path(cls.temporary.name)
         cls.patients = cls.folder / "patients"
-        cli("phantom", "--cases", 2, "--seed", 11, "--cohort", "paper", "--output", cls.patients, "--quiet")
+        coarse_patients(cls.patients, 2)
         for n, name in enumerate(("Doefeather^Jane", "Zoeblossom^Zelda"), 1):
             (cls.patients / f"patient-00{n}").rename(cls.patients / name)
-            scene = json.loads((cls.patients / name / "scene.json").read_text())
-            scene["geometry"]["cell_mm"] = 8
-            (cls.patients / name / "scene.json").write_text(json.dumps(scene))
         bad = cls.patients / "Poewhistle^Paul"
         shutil.copytree(cls.patients / "Doefeather^Jane", bad)
         # One slice in the middle of the elastogram is gone.
@@ -51,7 +57,7 @@ class Cohort(unittest.TestCase):
             self.assertAlmostEqual(t, m, delta=0.02 * t)
         over = sum(m > 3.1 for m in measured) / len(measured)
         self.assertAlmostEqual(r["stiffness"]["fraction_over_1kPa"], over, places=12)
-        for name in ("cohort.json", "patients.csv", "rejected.csv", "report.html", "figures/stiffness-histogram.png",
+        for name in ("cohort.json", "patients.csv", "rejected.csv", "report.html", "report.pdf", "figures/stiffness-histogram.png",
                      "figures/difference-retractor.svg"):
             self.assertTrue((self.whole / name).stat().st_size > 100, name)
         self.assertEqual(len(r["chosen"]), 2)
@@ -66,6 +72,10 @@ class Cohort(unittest.TestCase):
         for path in self.whole.rglob("*"):
             if path.is_file():
                 data = path.read_bytes()
+                if path.suffix == ".pdf" and shutil.which("pdftotext"):
+                    words = subprocess.run(["pdftotext", path, "-"], capture_output=True, check=True).stdout
+                    self.assertIn(b"Research use only", words)
+                    data += words
                 for name in (b"Doefeather", b"Zoeblossom", b"Poewhistle", str(self.folder).encode()):
                     self.assertFalse(name in data, f"{name} in {path}")
 

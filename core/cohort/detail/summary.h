@@ -38,7 +38,8 @@ struct Summary {
   std::vector<Chosen> chosen;
   std::vector<SensitivityRow> sensitivity;
   std::map<std::string, std::vector<std::filesystem::path>> pictures;  ///< per chosen patient
-  std::string sceneParameters;  ///< scene JSON without paths, of the first patient that is left
+  std::map<std::string, std::string> pictureNotes;  ///< why a chosen patient has none; absent where all were drawn
+  std::string sceneParameters;                      ///< scene JSON without paths, of the first patient that is left
 };
 
 /// Runs the chosen patients again, with pictures and with every variation, where that is not done yet.
