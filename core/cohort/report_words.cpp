@@ -128,10 +128,11 @@ void reservations(report::Page& page, const Summary& s) {
         "°). The differences are those of the linear model that was asked for.");
   const Spread e = spreadOf(error);
   if (e.n > 0)
-    page.paragraph("The largest discretisation error of a displacement, estimated from cells twice as large, is " +
-                   inWords(e, "mm") +
-                   ". It is an error of each of the two displacements, largest under the edge of the retractor; both "
-                   "models share cells and load, so that much of it, but not all, cancels in their difference.");
+    page.paragraph(
+        "The largest discretisation error of a displacement, estimated from cells twice as large, is " +
+        inWords(e, "mm") +
+        ". It is an error of each of the two displacements at its worst cell; how much of it is left in their "
+        "difference was not estimated.");
 }
 
 void sensitivityTable(report::Page& page, const Summary& s) {
