@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "base/error.h"
@@ -33,6 +35,23 @@ Json statistics(const inversion::Inversion& r, const image::ScalarVolume& values
       {"n", s.n}, {"mean_kPa", orNull(s.mean_kPa)}, {"median_kPa", orNull(s.median_kPa)}, {"sd_kPa", orNull(s.sd_kPa)}};
 }
 
+/// What makes statistics of few voxels doubtful, in words; nothing where there are enough.
+std::optional<std::string> fewConfident(std::size_t confident, std::size_t resolved, double threshold,
+                                        double noise_rad) {
+  if (confident >= 50 && 20 * confident >= resolved) return {};
+  std::ostringstream text;
+  text.precision(2);
+  text << (confident == 0 ? "no voxel" : "only " + std::to_string(confident)) << " of " << resolved
+       << " voxels with a modulus reach a confidence of " << threshold
+       << ": the waves there do not follow the wave equation of one stiffness well enough";
+  if (noise_rad > 0.2)
+    text << "; the phase noise is " << noise_rad << " rad, and from 0.1 rad on it spoils a wave of 1 rad";
+  text
+      << "; give a mask of the organ (--mask), another filter (--filter, --cutoff), or read a lower --confidence as an "
+         "order of magnitude only";
+  return text.str();
+}
+
 int invert(Arguments a, const Context& context) {
   const Progress progress = context.progress();
   if (a.encodings.size() % 3 != 0) throw BadInput("an encoding vector has three numbers: x y z");
@@ -59,6 +78,8 @@ int invert(Arguments a, const Context& context) {
   for (const auto& d : waves.directions)
     j["directions"].push_back(
         {{"noise_rad", d.noise_rad}, {"jumping_fraction", d.jumping}, {"unwrapped_in_space", d.spatiallyUnwrapped}});
+  double noise_rad = 0.0;
+  for (const auto& d : waves.directions) noise_rad = std::max(noise_rad, d.noise_rad);
   const inversion::Inversion r = inversion::invert(std::move(waves), a.options, progress.part(0.5, 1.0));
   j["inversion"] = {{"dimensions", r.used.dimensions}, {"filter", a.filter},
                     {"window_mm", r.used.window_mm},   {"averaging_mm", r.used.averaging_mm},
@@ -75,6 +96,8 @@ int invert(Arguments a, const Context& context) {
   j["shear_stiffness"]["is"] = "density x wave speed squared";
   j["warnings"] = phases.warnings;
   for (const std::string& w : r.warnings) j["warnings"].push_back(w);
+  if (const auto few = fewConfident(j["stiffness"]["n"].get<std::size_t>(), r.resolved, a.confidence, noise_rad))
+    j["warnings"].push_back(*few);
   j["files"] = Json::array();
   if (!context.output.empty()) {
     for (const auto& file : pipeline::writeInversion(context.output, r)) j["files"].push_back(file.string());

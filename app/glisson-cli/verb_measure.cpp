@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "base/error.h"
@@ -21,7 +22,7 @@ struct Arguments {
   int label = 0;
   int erosion_pixels = 0;
   double erosion_mm = 0.0;
-  double confidence = defaults::confidenceThreshold;
+  std::optional<double> confidence;
   double poisson = 0.5;
 };
 
@@ -81,7 +82,9 @@ int measure(const Arguments& a, const Context& context) {
   const elastography::MappedRoi mapped = pipeline::mapRoi(roi, mriGrid, mre.map);
 
   elastography::MeasureOptions options;
-  options.confidenceThreshold = a.confidence;
+  options.confidenceThreshold = a.confidence.value_or(defaults::confidenceThreshold);
+  if (a.confidence && !mre.map.confidence)
+    mre.warnings.push_back("--confidence was not used: the map comes without a confidence map");
   options.erosion_pixels = a.erosion_pixels;
   options.erosion_mm = a.erosion_mm;
   std::optional<image::Mask> excluded;
@@ -141,7 +144,9 @@ void addMeasure(CLI::App& app, Context& context) {
   auto a = std::make_shared<Arguments>();
   verb->add_option("--mre", a->mre, "elastogram: DICOM folder, DICOMDIR or ZIP archive, or a stiffness map")
       ->required();
-  verb->add_option("--roi", a->roi, "region of interest: contour JSON, RT Structure Set, Segmentation, mask or closed surface")->required();
+  verb->add_option("--roi", a->roi,
+                   "region of interest: contour JSON, RT Structure Set, Segmentation, mask or closed surface")
+      ->required();
   verb->add_option("--mri", a->mri,
                    "image that the contours were drawn on, where its slices differ from the elastogram's");
   verb->add_option("--quantity", a->quantity, "what a bare map holds")->check(CLI::IsMember({"shear", "youngs"}));

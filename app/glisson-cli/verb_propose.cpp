@@ -67,6 +67,10 @@ void addPropose(CLI::App& app, Context& context) {
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--closing", a->options.closing_mm, "gaps narrower than twice this are closed, mm")
       ->check(CLI::NonNegativeNumber);
+  verb->add_option("--least", a->options.least_mL, "of an organ, mL: what is smaller is refused")
+      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--most", a->options.most_mL, "of an organ, mL: what is larger has leaked and is refused")
+      ->check(CLI::PositiveNumber);
   verb->callback([&context, a] { context.action = [&context, a] { return propose(*a, context); }; });
 }
 

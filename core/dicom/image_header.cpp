@@ -20,7 +20,7 @@ std::string noImageReason(const std::string& sopClass, const std::string& modali
   if (sopClass == UID_RTStructureSetStorage || modality == "RTSTRUCT")
     return "is an RT Structure Set: contours, no image";
   if (sopClass == UID_SegmentationStorage || modality == "SEG") return "is a Segmentation: labels, no image series";
-  if (sopClass == UID_MediaStorageDirectoryStorage) return "is a DICOMDIR index; the files themselves are read";
+  if (sopClass == UID_MediaStorageDirectoryStorage) return "is a DICOMDIR index and no image; what it lists is read where it is given by itself";
   if (modality == "SR") return "is a Structured Report: no image";
   if (modality == "PR") return "is a Presentation State: no image";
   if (modality == "KO") return "is a Key Object Selection: no image";

@@ -149,14 +149,16 @@ void smoothSpread(Inversion& out, const std::vector<Eigen::Vector3i>& around, co
 }
 
 void warn(Inversion& out, int directions) {
+  // Part of the modulus: a body without loss has values around 0, which say nothing about the order in time.
+  constexpr float clearlyNegative = -0.1F;
   std::vector<float> loss;
   for (std::size_t v = 0; v < out.loss_kPa.values.size(); ++v)
     if (out.confidence.values[v] >= 0.9F && std::isfinite(out.loss_kPa.values[v]))
-      loss.push_back(out.loss_kPa.values[v]);
+      loss.push_back(out.loss_kPa.values[v] / out.magnitude_kPa.values[v]);
   if (loss.size() > 20) {
     const auto middle = loss.begin() + static_cast<std::ptrdiff_t>(loss.size() / 2);
     std::nth_element(loss.begin(), middle, loss.end());
-    if (*middle < 0.0F)
+    if (*middle < clearlyNegative)
       out.warnings.push_back(
           "the loss modulus is negative at most confident voxels: are the phase offsets in order of time?");
   }

@@ -123,15 +123,30 @@ void fillHarmonics(Waves::Direction& d, const std::vector<image::ScalarVolume>& 
   for (int m = 2; m <= static_cast<int>(steps.size()) / 2 && m <= 3; ++m) d.noise.push_back(harmonic(steps, m));
 }
 
-image::Mask signalMask(const Waves& waves, std::size_t offsets) {
-  image::Mask mask(waves.grid, 1);
-  if (offsets < 4) return mask;
-  image::ScalarVolume power(waves.grid);
-  for (const Waves::Direction& d : waves.directions) addNoise(power, d, offsets);
-  power = smoothed(power);
-  const double most = signalNoise_rad * signalNoise_rad * static_cast<double>(waves.directions.size());
+/// Where steps agree between neighbours: the mean over all of them of |mean of exp(i step) over 3 x 3 pixels|. A step
+/// that wrapped is the same step there, and a wave changes little over so few pixels; noise of sigma in each phase
+/// leaves exp(-sigma^2), phase without signal a third.
+image::Mask signalMask(const std::vector<std::vector<image::ScalarVolume>>& steps, const image::Grid& grid) {
+  image::Mask mask(grid, 1);
+  if (steps.front().size() < 4) return mask;
+  image::ScalarVolume agreement(grid);
+  double count = 0.0;
+  for (const auto& direction : steps)
+    for (const image::ScalarVolume& step : direction) {
+      image::ScalarVolume real(grid), imaginary(grid);
+      for (std::size_t v = 0; v < step.values.size(); ++v) {
+        real.values[v] = std::cos(step.values[v]);
+        imaginary.values[v] = std::sin(step.values[v]);
+      }
+      real = smoothed(real);
+      imaginary = smoothed(imaginary);
+      for (std::size_t v = 0; v < step.values.size(); ++v)
+        agreement.values[v] += std::hypot(real.values[v], imaginary.values[v]);
+      count += 1.0;
+    }
+  const double least = std::exp(-signalNoise_rad * signalNoise_rad) * count;
   for (std::size_t v = 0; v < mask.values.size(); ++v)
-    mask.values[v] = static_cast<double>(power.values[v]) < most ? 1 : 0;
+    mask.values[v] = static_cast<double>(agreement.values[v]) > least ? 1 : 0;
   return mask;
 }
 
@@ -188,7 +203,7 @@ Waves firstHarmonic(const std::vector<PhaseOffsets>& directions, const WaveOptio
     fillHarmonics(out, steps.back());
     waves.directions.push_back(std::move(out));
   }
-  waves.mask = options.mask ? *options.mask : signalMask(waves, offsets);
+  waves.mask = options.mask ? *options.mask : signalMask(steps, waves.grid);
   if (image::count(waves.mask) == 0)
     throw BadInput(options.mask ? "the mask holds no voxel of the phase images"
                                 : "no voxel of the phase images has signal: the phase is noise everywhere");

@@ -34,11 +34,16 @@ void readDicom(const std::filesystem::path& path, Ordered& found, LoadedPhases& 
                      "'; give the folder of one acquisition");
     if (s.vibration_Hz) out.frequency_Hz = s.vibration_Hz;
     for (const std::string& shown : s.warnings) {
+      // What makes a raw acquisition: told once, with the count, below.
+      if (shown.find("told apart by encoding direction") != std::string::npos) continue;
       const std::string warning = names.hiddenIn(shown);
       if (std::find(out.warnings.begin(), out.warnings.end(), warning) == out.warnings.end())
         out.warnings.push_back(warning);
     }
   }
+  if (found.size() > 1)
+    out.warnings.push_back(std::to_string(found.size()) +
+                           " phase volumes were told apart by their encoding direction and time step");
   if (found.empty())
     throw BadInput("'" + path.filename().string() +
                    "' holds no raw phase images whose time step is known; convert them to volumes, in order of "

@@ -28,6 +28,9 @@ using detail::partWith;
 using detail::putBack;
 using detail::volume_mL;
 
+/// SD of an organ's texture, of the span between dark and bright tissue.
+constexpr double leastTexture = 0.04, mostTexture = 0.12;
+
 double medianOf(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -143,7 +146,6 @@ Grown grow(const Scene& s, const Eigen::Vector3i& seed, const Robust& around, co
   constexpr double sigma_mm = 20.0;
   constexpr double reach_mm = 30.0;  // that it may grow in a round
   constexpr int rounds = 20;
-  constexpr double leastTexture = 0.04, mostTexture = 0.12;  // SD, of the span between dark and bright tissue
   const image::Grid& grid = s.cells.grid;
   const double leastSd = leastTexture * s.span, mostSd = mostTexture * s.span;
   double sd = std::clamp(around.sd, leastSd, mostSd);
@@ -223,6 +225,29 @@ std::optional<Eigen::Vector3i> otherTissue(const Scene& s, const Eigen::Vector3i
   return cell;
 }
 
+/// The most even cell in reach with the value of the seed itself.
+std::optional<Eigen::Vector3i> evenTissue(const Scene& s, const Eigen::Vector3i& seed, const Robust&, double spread) {
+  constexpr double reach_mm = 15.0, radius_mm = 6.0;
+  const image::Grid& grid = s.cells.grid;
+  const auto own = static_cast<double>(s.cells.at(seed));
+  const Eigen::Vector3i reach = (reach_mm / grid.spacing_mm.array()).floor().cast<int>();
+  std::optional<Eigen::Vector3i> best;
+  double least = 1e300;
+  for (int k = -reach.z(); k <= reach.z(); ++k)
+    for (int j = -reach.y(); j <= reach.y(); ++j)
+      for (int i = -reach.x(); i <= reach.x(); ++i) {
+        const Eigen::Vector3i at = seed + Eigen::Vector3i(i, j, k);
+        if (!grid.contains(at)) continue;
+        std::vector<double> values = valuesAround(s, at, radius_mm);
+        const Robust here = robust(values);
+        if (here.middle > s.air && std::abs(here.middle - own) <= spread * leastTexture * s.span && here.sd < least) {
+          least = here.sd;
+          best = at;
+        }
+      }
+  return best;
+}
+
 std::string rounded(double value) {
   return std::to_string(static_cast<long>(std::lround(value)));
 }
@@ -239,32 +264,28 @@ Proposal propose(const image::ScalarVolume& image, const Eigen::Vector3d& seed_l
   progress.report(0.0, "smoothing");
   const Scene scene = sceneOf(image, options);
   const image::Grid& grid = scene.cells.grid;
-  Eigen::Vector3i seed = grid.lpsToIndex(seed_lps).array().round().cast<int>().max(0).min(grid.size.array() - 1);
+  const Eigen::Vector3i seed = grid.lpsToIndex(seed_lps).array().round().cast<int>().max(0).min(grid.size.array() - 1);
   std::vector<double> values = valuesAround(scene, seed, options.seedRadius_mm);
-  Robust around = robust(values);
+  const Robust around = robust(values);
   if (around.middle < scene.air)
     throw BadInput("the seed lies in air: there is no signal around it; click inside the organ");
   progress.report(0.3, "growing from the seed");
   Proposal result;
   Grown grown = grow(scene, seed, around, options, progress);
-  const double first_mL = volume_mL(grown.mask);
-  if (first_mL < options.least_mL) {
-    // A click into a vessel: the tissue that surrounds it is meant.
-    if (const auto other = otherTissue(scene, seed, around, options.spread)) {
-      values = valuesAround(scene, *other, options.seedRadius_mm);
-      around = robust(values);
-      Grown second = grow(scene, *other, around, options, progress);
-      constexpr double beside_mm = 6.0;
-      if (const double mL = volume_mL(second.mask);
-          mL >= options.least_mL && mL <= options.most_mL && nearestOf(second.mask, seed).second <= beside_mm) {
-        const double moved_mm = grid.spacing_mm.cwiseProduct((*other - seed).cast<double>()).norm();
-        result.notes.push_back(
-            "the seed lies in a vessel or another thing smaller than an organ: the tissue beside it, " +
-            rounded(moved_mm) + " mm away, was taken");
-        grown = std::move(second);
-        seed = *other;
-      }
-    }
+  // A click beside or into a vessel: the even tissue next to it is meant, else the tissue that surrounds the vessel.
+  for (const auto& find : {evenTissue, otherTissue}) {
+    if (volume_mL(grown.mask) >= options.least_mL) break;
+    const auto other = find(scene, seed, around, options.spread);
+    if (!other) continue;
+    values = valuesAround(scene, *other, options.seedRadius_mm);
+    Grown second = grow(scene, *other, robust(values), options, progress);
+    constexpr double beside_mm = 6.0;
+    const double mL = volume_mL(second.mask);
+    if (mL < options.least_mL || mL > options.most_mL || nearestOf(second.mask, seed).second > beside_mm) continue;
+    const double moved_mm = grid.spacing_mm.cwiseProduct((*other - seed).cast<double>()).norm();
+    result.notes.push_back("the seed lies in or beside a vessel or another thing smaller than an organ: the tissue " +
+                           rounded(moved_mm) + " mm away was taken");
+    grown = std::move(second);
   }
   const double grown_mL = volume_mL(grown.mask);
   if (image::count(grown.mask) == 0 || grown_mL < options.least_mL)

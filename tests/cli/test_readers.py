@@ -1,6 +1,7 @@
 """Inversion of raw phase, agreement of readers, a proposed outline, and what measure leaves out."""
 import math
 import pathlib
+import random
 import tempfile
 import unittest
 
@@ -55,6 +56,23 @@ class Readers(unittest.TestCase):
                      "--roi", self.at / "roi.nii")
         self.assertAlmostEqual(m["pooled"]["mean_kPa"], 2.1, delta=0.03)
 
+    def test_invert_says_where_few_voxels_are_confident_and_blames_no_order_of_time(self):
+        good = cli_json("invert", "--phase", *self.phases(2.1, 60), "--frequency", 60, "--filter", "none")
+        self.assertFalse(any("loss modulus" in w or "reach a confidence" in w for w in good["warnings"]))
+        chance, files = random.Random(1), self.phases(2.1, 60)
+        for file in files:
+            _, _, values = read_nifti(file)
+            write_nifti(file, [math.remainder(v + chance.gauss(0, 0.45), 2 * math.pi) for v in values], SIZE, SPACING)
+        noisy = cli_json("invert", "--phase", *files, "--frequency", 60, "--filter", "none", "--confidence", 0.999)
+        self.assertTrue(any("reach a confidence of" in w and "phase noise" in w for w in noisy["warnings"]), noisy["warnings"])
+
+    def test_confidence_on_a_bare_map_is_said_to_be_unused(self):
+        write_nifti(self.at / "map.nii", volume(lambda i, j, k: 2.5), SIZE, SPACING)
+        write_nifti(self.at / "roi.nii", box((14, 14), (34, 30)), SIZE, SPACING, kind="B")
+        bare = ("measure", "--mre", self.at / "map.nii", "--quantity", "shear", "--unit", "kPa", "--roi", self.at / "roi.nii")
+        self.assertFalse(any("--confidence" in w for w in cli_json(*bare)["warnings"]))
+        self.assertTrue(any("--confidence was not used" in w for w in cli_json(*bare, "--confidence", 0.9)["warnings"]))
+
     def test_invert_needs_a_frequency_and_whole_directions(self):
         files = self.phases(2.1, 60)
         cli("invert", "--phase", *files, code=3)
@@ -93,12 +111,12 @@ class Readers(unittest.TestCase):
     def test_propose_writes_outlines_and_masks(self):
         write_nifti(self.at / "image.nii", volume(lambda i, j, k: 300 if (i - 22) ** 2 + (j - 20) ** 2 < 225 else 50),
                     SIZE, SPACING)
-        j = cli_json("propose", "--image", self.at / "image.nii", "--seed", "22,20,1", "--index", "--neck", 3,
+        j = cli_json("propose", "--image", self.at / "image.nii", "--seed", "22,20,1", "--index", "--neck", 3, "--least", 5,
                      "--output", self.at / "roi.json")
         area = math.pi * 225 * 1.64 * 1.64 * 20 * 1e-3
         self.assertAlmostEqual(j["volume_mL"], area, delta=0.05 * area)
         self.assertTrue(j["touches_border"])
-        cli_json("propose", "--image", self.at / "image.nii", "--seed", "22,20,1", "--index", "--neck", 3,
+        cli_json("propose", "--image", self.at / "image.nii", "--seed", "22,20,1", "--index", "--neck", 3, "--least", 5,
                  "--output", self.at / "mask.nii.gz")
         same = cli_json("agree", self.at / "mask.nii.gz", self.at / "roi.json")["cases"][0]["with_first"][0]
         self.assertGreater(same["dice"], 0.97)
