@@ -236,8 +236,10 @@ Scene sceneOfCase(const fs::path& file) {
       for (const char* key : {"mri", "mre"}) follow(scene["geometry"], key, was, now);
       // Outlines of a version, and those of a saving that was broken off, are in versions/.
       const fs::path kept = versionFolder(own, text.version);
-      const bool here = readWhole(own / "contours.json") == text.contours;
-      scene["geometry"]["roi"] = fs::absolute((here ? own : kept) / "contours.json").generic_string();
+      std::error_code error;
+      const bool here = fs::exists(own / "contours.json", error) && readWhole(own / "contours.json") == text.contours;
+      if (scene["geometry"].contains("roi"))
+        scene["geometry"]["roi"] = fs::absolute((here ? own : kept) / "contours.json").generic_string();
     }
   } catch (const nlohmann::json::exception&) {
     throw BadInput("'case.json' lacks what a case needs, or holds it in another form; it was changed by hand");

@@ -122,10 +122,6 @@
             <translation>Keine Gefäßpunkte gefunden.</translation>
         </message>
         <message>
-            <source>%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 % at 5 mm or more</source>
-            <translation>%1 Gefäßpunkte: Mittel %2, 95. Perzentil %3, größter %4; %5 % mit 5 mm oder mehr</translation>
-        </message>
-        <message>
             <source>Places on vessels where MRE and atlas lie 5 mm or more apart</source>
             <translation>Gefäßstellen, an denen MRE und Atlas 5 mm oder mehr auseinanderliegen</translation>
         </message>
@@ -180,6 +176,10 @@
         <message>
             <source>Error against run time</source>
             <translation>Fehler gegen Rechenzeit</translation>
+        </message>
+        <message>
+            <source>%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 % at 5 mm or more</source>
+            <translation>%1 Landmarken: im Mittel %2, 95. Perzentil %3, größte %4; %5 % bei 5 mm oder mehr</translation>
         </message>
     </context>
     <context>

@@ -164,6 +164,17 @@ class Gestures : public QObject, private glisson::test::WindowBench {
     QCOMPARE(session().statistics().pooled->pooled.sd_kPa, again.pooled.sd_kPa);
   }
 
+  void twoReadersAreCompared() {
+    session().loadSecondReader(path("no-wave"));
+    QSignalSpy compared(&session(), &Session::readersCompared);
+    session().compareReaders();
+    QVERIFY(compared.wait(wait_ms));
+    QVERIFY2(compared[0][0].toString().contains("Dice 1.000"), qPrintable(compared[0][0].toString()));
+    if (auto* box = window().findChild<QDialog*>("readersBox")) box->close();
+    session().loadSecondReader({});
+    QVERIFY(session().secondReader().polygons.empty());
+  }
+
   void aFirstOutlineIsProposedFromUnderTheMouse() {
     clean();
     const QPoint at = showLiver();
@@ -187,7 +198,7 @@ class Gestures : public QObject, private glisson::test::WindowBench {
     const auto agreement = glisson::roi::agreement(glisson::roi::rasterise(session().contours(), grid),
                                                    glisson::roi::rasterise(*truth.contours, grid));
     qInfo("proposed from one click: Dice %.3f against the patient's own outlines", agreement.dice);
-    QVERIFY(agreement.dice > 0.7);
+    QVERIFY(agreement.dice > 0.8);
     // It is edited like any other: a vertex is moved, and the slice is accepted with that.
     const std::size_t accepted = session().acceptedCount();
     std::size_t mine = polygons().size();
@@ -201,17 +212,6 @@ class Gestures : public QObject, private glisson::test::WindowBench {
     QCOMPARE(session().acceptedCount(), accepted);
     session().undo();  // the proposal is one step
     QVERIFY(polygons().empty());
-  }
-
-  void twoReadersAreCompared() {
-    session().loadSecondReader(path("no-wave"));
-    QSignalSpy compared(&session(), &Session::readersCompared);
-    session().compareReaders();
-    QVERIFY(compared.wait(wait_ms));
-    QVERIFY2(compared[0][0].toString().contains("Dice 1.000"), qPrintable(compared[0][0].toString()));
-    if (auto* box = window().findChild<QDialog*>("readersBox")) box->close();
-    session().loadSecondReader({});
-    QVERIFY(session().secondReader().polygons.empty());
   }
 
   void scalesPresetsLayersAndRuler() {

@@ -13,6 +13,7 @@
 
 #include "panels/compare_page.h"
 #include "panels/live_bar.h"
+#include "panels/method_chart.h"
 #include "panels/step_rail.h"
 #include "pipeline/run.h"
 #include "session/stall_monitor.h"
@@ -249,6 +250,37 @@ class Journey : public QObject, private glisson::test::WindowBench {
     find<QComboBox>("sliceChoice")->setCurrentIndex(0);
     QTRY_VERIFY(find<PictureView>("boxPlotView")->hasPicture());
     QVERIFY(find<QLabel>("validityText")->text().contains("cells of"));
+  }
+
+  void methodsAreMeasuredOnThisPatient() {
+    auto* chart = window().findChild<glisson::panels::MethodChart*>();
+    find<QComboBox>("besideChoice")->setCurrentIndex(2);
+    QVERIFY(!chart->isReady());
+    // On request only, and it can be stopped.
+    QSignalSpy stopped(chart, &glisson::panels::MethodChart::stopped);
+    QSignalSpy ready(chart, &glisson::panels::MethodChart::ready);
+    click("methodStart");
+    click("methodCancel");
+    QVERIFY(stopped.count() > 0 || stopped.wait(wait_ms));
+    QVERIFY2(stopped.front().front().toString().isEmpty(), qPrintable(stopped.front().front().toString()));
+    QVERIFY(!chart->isReady());
+    StallMonitor stalls;
+    click("methodStart");
+    QVERIFY(ready.wait(wait_ms));
+    qInfo("longest time without an answer while methods are measured: %.0f ms", stalls.report().max_ms);
+    QVERIFY(find<PictureView>("methodPicture")->hasPicture());
+    auto* rows = find<QTreeWidget>("methodRows");
+    QVERIFY(rows->topLevelItemCount() > 10);
+    int marked = 0, exact = 0;
+    for (int r = 0; r < rows->topLevelItemCount(); ++r) {
+      const QString name = rows->topLevelItem(r)->text(0);
+      if (name.contains("default") && name.contains("your choice") && name.startsWith("H8-incompatible")) ++marked;
+      if (rows->topLevelItem(r)->text(3).contains("mm")) ++exact;
+    }
+    QCOMPARE(marked, 1);
+    QVERIFY(exact > 8);
+    QVERIFY(find<QLabel>("methodWords")->text().contains("The default method errs by at most"));
+    find<QComboBox>("besideChoice")->setCurrentIndex(0);
   }
 
   void picturesAndReportAreExported() {

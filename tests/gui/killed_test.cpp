@@ -95,9 +95,9 @@ class Killed : public QObject, private glisson::test::WindowBench {
       // What a reader sees who starts the program again.
       WindowBench after(root);
       QPushButton* button = nullptr;
-      QTest::qWaitFor([&] { return (button = after.window().findChild<QPushButton*>("recoverButton")) != nullptr; },
-                      300);
-      if (button) {
+      const bool offered = QTest::qWaitFor(
+          [&] { return (button = after.window().findChild<QPushButton*>("recoverButton")) != nullptr; }, 300);
+      if (offered) {
         QSignalSpy loaded(&after.session(), &glisson::session::Session::loaded);
         QTest::mouseClick(button, Qt::LeftButton);
         QVERIFY(loaded.wait(glisson::test::wait_ms));

@@ -23,7 +23,8 @@ using glisson::test::wheel;
 
 namespace {
 
-constexpr int eventsByDefault = 5000;
+constexpr int eventsByDefault = 4000;
+constexpr int eventsAtOnce = 5;  ///< come between two looks at the queue: a hand is quicker than a picture
 constexpr std::size_t outlinesOfADay = 60;
 
 double resident_MB() {
@@ -137,7 +138,11 @@ class RandomEvents : public QObject, private glisson::test::WindowBench {
 
   /// The outlines of a day are taken back, and what undo has forgotten is deleted by hand.
   void endOfDay() {
-    clean();
+    while (session().canUndo()) {
+      session().undo();
+      QCoreApplication::processEvents();
+    }
+    session().tool().deselect();
     while (!polygons().empty()) {
       session().tool().selectPolygon(polygons().size() - 1);
       const std::size_t before = polygons().size();
@@ -165,7 +170,7 @@ class RandomEvents : public QObject, private glisson::test::WindowBench {
     int days = 0, background = 0;
     for (int n = 0; n < events; ++n) {
       oneEvent();
-      QCoreApplication::processEvents();
+      if (n % eventsAtOnce == 0) QCoreApplication::processEvents();
       if (session().busy()) {
         // Work in the background may go on for a while, then the reader cancels or waits.
         if (++background > 40) session().cancel();

@@ -18,7 +18,7 @@ namespace glisson::panels {
 namespace {
 
 QString mm(double value) {
-  return QString::number(value, 'f', 2) + QStringLiteral(" mm");
+  return QString::number(value, 'f', 2) + QStringLiteral("\u00a0mm");  // number and unit on one line
 }
 
 }  // namespace
@@ -243,7 +243,7 @@ void ComparePage::showNumbers() {
                                                       : tr("Below the 5 mm that matter clinically.")));
   vessels_->setText(d.vessel_mm.empty()
                         ? tr("No vessel landmarks were found.")
-                        : tr("%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 % at 5 mm or more")
+                        : tr("%1 landmarks: mean %2, 95th percentile %3, largest %4; %5\u00a0% at 5\u00a0mm or more")
                               .arg(static_cast<qulonglong>(d.vessel_mm.size()))
                               .arg(mm(d.vesselMean_mm), mm(d.vesselP95_mm), mm(d.vesselMax_mm))
                               .arg(100.0 * d.vesselFractionBeyond, 0, 'f', 0));

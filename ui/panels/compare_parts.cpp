@@ -13,6 +13,18 @@
 
 namespace glisson::panels {
 
+namespace {
+
+/// What the numerics say, as a sentence of its own.
+QString sentence(const std::string& text) {
+  QString s = QString::fromStdString(text);
+  if (!s.isEmpty()) s[0] = s[0].toUpper();
+  if (!s.endsWith(QLatin1Char('.'))) s += QLatin1Char('.');
+  return s;
+}
+
+}  // namespace
+
 QWidget* ComparePage::makeVesselList() {
   list_ = new QTreeWidget;
   list_->setObjectName(QStringLiteral("vesselList"));
@@ -88,7 +100,7 @@ QString ComparePage::trust() const {
   const auto result = session_.result();
   QStringList words;
   if (session_.resultIsStale()) words << tr("Something has changed since this run: run again.");
-  for (const std::string& w : result->primary.validity) words << QString::fromStdString(w);
+  for (const std::string& w : result->primary.validity) words << sentence(w);
   if (words.isEmpty()) words << tr("No warning: strains and rotations are within linear theory.");
   if (result->discretisation) {
     const retraction::DiscretisationError& e = *result->discretisation;
@@ -107,7 +119,7 @@ QString ComparePage::trust() const {
       words << tr("How much the size of the cells matters is not known: %1").arg(QString::fromStdString(e.note));
     }
   }
-  for (const std::string& w : result->warnings) words << QString::fromStdString(w);
+  for (const std::string& w : result->warnings) words << sentence(w);
   words.removeDuplicates();
   return words.join(QStringLiteral("\n"));
 }

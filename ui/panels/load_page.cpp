@@ -126,6 +126,7 @@ QWidget* LoadPage::makeTable() {
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(thumbnail_px + 8);
   table_->setIconSize({thumbnail_px, thumbnail_px});
+  table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   table_->setShowGrid(false);
   table_->setAlternatingRowColors(true);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -160,7 +161,11 @@ void LoadPage::fill() {
     role->setEnabled(!s.error);
     connect(role, &QComboBox::activated, this,
             [this, role, row] { session_.setRole(row, static_cast<SeriesRole>(role->currentData().toInt())); });
-    table_->setCellWidget(row, 2, role);
+    auto* place = new QWidget;  // else the control would be as high as the thumbnail
+    auto* middle = new QHBoxLayout(place);
+    middle->setContentsMargins(4, 0, 4, 0);
+    middle->addWidget(role);
+    table_->setCellWidget(row, 2, place);
     table_->setItem(row, 3, cell(QString::fromStdString(s.error ? *s.error : s.roleReason)));
     table_->setItem(row, 4, cell(sizeText(s)));
     table_->setItem(row, 5, cell(spacingText(s)));

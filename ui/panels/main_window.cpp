@@ -189,7 +189,12 @@ void MainWindow::updateStatus() {
 void MainWindow::refreshIcons() {
   for (QPushButton* b : findChildren<QPushButton*>()) {
     const QString name = b->property("iconName").toString();
-    if (!name.isEmpty()) b->setIcon(icon(name, b->property("primary").toBool() ? QColor(Qt::white) : QColor()));
+    if (name.isEmpty()) continue;
+    QIcon shown = icon(name, b->property("primary").toBool() ? QColor(Qt::white) : QColor());
+    // A button that cannot be pressed has another ground.
+    const QIcon faint = icon(name, palette().color(QPalette::Disabled, QPalette::ButtonText));
+    for (const QSize& size : faint.availableSizes()) shown.addPixmap(faint.pixmap(size), QIcon::Disabled);
+    b->setIcon(shown);
   }
 }
 

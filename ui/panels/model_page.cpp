@@ -1,5 +1,6 @@
 #include "panels/model_page.h"
 
+#include <QAbstractItemView>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QHeaderView>
@@ -21,6 +22,10 @@ QComboBox* choice(const char* objectName, const QString& tip) {
   auto* box = new QComboBox;
   box->setObjectName(QString::fromLatin1(objectName));
   box->setToolTip(tip);
+  // Not as wide as the longest choice: what the choice is for must be read too.
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box->setMinimumContentsLength(12);
+  box->view()->setTextElideMode(Qt::ElideNone);
   return box;
 }
 
