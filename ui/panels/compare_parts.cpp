@@ -35,7 +35,7 @@ QWidget* ComparePage::makeVesselList() {
   list_->setFixedHeight(132);
   list_->header()->setStretchLastSection(true);
   list_->setColumnWidth(0, 78);
-  list_->setColumnWidth(1, 48);
+  list_->setColumnWidth(1, 60);
   list_->setToolTip(tr("Choose a place: the slice shows it, magnified"));
   connect(list_, &QTreeWidget::currentItemChanged, this,
           [this](QTreeWidgetItem* item) { showVessel(item ? list_->indexOfTopLevelItem(item) : -1); });

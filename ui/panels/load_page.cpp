@@ -134,6 +134,8 @@ QWidget* LoadPage::makeTable() {
   table_->horizontalHeader()->setSectionResizeMode(3, QHeaderView::Stretch);
   table_->horizontalHeader()->setSectionResizeMode(6, QHeaderView::Interactive);
   table_->setColumnWidth(6, 220);
+  table_->horizontalHeader()->setSectionResizeMode(2, QHeaderView::Fixed);
+  table_->setColumnWidth(2, 150);
   layout->addWidget(table_, 3);
   layout->addWidget(section(tr("Files left out")));
   skipped_->setObjectName(QStringLiteral("skippedFiles"));

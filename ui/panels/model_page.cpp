@@ -119,7 +119,8 @@ QWidget* ModelPage::makeSide() {
   offer(Method::Voronoi, tr("Mesh-free, Voronoi"), tr("Frames with affine motion, Voronoi kernel as published"));
   offer(Method::MovingLeastSquares, tr("Mesh-free, moving least squares"),
         tr("Element-free Galerkin: three degrees of freedom per site"));
-  mesh_->addRow(tr("Method"), method_);
+  method_->setAccessibleName(tr("Method"));
+  mesh_->addRow(method_);  // the whole width: names are long
   cell_ = quantity("cellSize", 0, 20, 0.5, 2, QStringLiteral("mm"),
                    tr("Edge of a voxel cell: smaller is more exact and slower. 0 = twice the pixel of the MRI"));
   cell_->setSpecialValueText(tr("automatic"));

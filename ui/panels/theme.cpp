@@ -56,7 +56,7 @@ QString styleSheet(const Colours& c) {
     QCheckBox::indicator { width: 14px; height: 14px; border: 1px solid %faint; border-radius: 3px; background: %base; }
     QCheckBox::indicator:checked { background: %accent; border-color: %accent; }
     QTreeWidget::item { padding: 4px 5px; }
-    QComboBox { background: %base; border: 1px solid %border; border-radius: 5px; padding: 3px 6px; min-height: 20px; }
+    QComboBox { background: %base; border: 1px solid %border; border-radius: 5px; padding: 3px 0 3px 6px; min-height: 20px; }
     QComboBox:hover, QComboBox:focus { border-color: %accent; } QComboBox:disabled { color: %faint; }
     QComboBox::drop-down { border: none; width: 22px; } QComboBox::down-arrow { image: url(:/icons/chevron.svg); width: 12px; }
     QTableWidget::item { padding: 2px 8px; }
