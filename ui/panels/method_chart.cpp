@@ -29,7 +29,7 @@ MethodChart::MethodChart(session::Session& session, QWidget* parent)
   picture_->setObjectName(QStringLiteral("methodPicture"));
   rows_->setObjectName(QStringLiteral("methodRows"));
   rows_->setAccessibleName(tr("Error and run time of every method"));
-  rows_->setHeaderLabels({tr("Method"), tr("Resolution"), tr("Run time"), tr("Largest error"), tr("Unknowns")});
+  rows_->setHeaderLabels({tr("Method"), tr("Largest error"), tr("Run time"), tr("Resolution"), tr("Unknowns")});
   rows_->setRootIsDecorated(false);
   rows_->setAlternatingRowColors(true);
   rows_->setUniformRowHeights(true);
@@ -133,8 +133,8 @@ void MethodChart::show_() {
     QString name = QString::fromStdString(r.method);
     if (study_->ofDefault == i) name += tr("  (default)");
     if (study_->ofChoice == i) name += tr("  (your choice)");
-    auto* item = new QTreeWidgetItem(rows_, {name, QString::fromStdString(r.resolution), seconds(r.total_s()),
-                                             millimetres(r.max_error_mm), QString::number(r.dofs)});
+    auto* item = new QTreeWidgetItem(rows_, {name, millimetres(r.max_error_mm), seconds(r.total_s()),
+                                             QString::fromStdString(r.resolution), QString::number(r.dofs)});
     QFont font = item->font(0);
     font.setBold(study_->ofDefault == i || study_->ofChoice == i);
     item->setFont(0, font);
