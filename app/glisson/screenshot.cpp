@@ -13,6 +13,7 @@
 #include "panels/live_bar.h"
 #include "panels/main_window.h"
 #include "panels/segment_page.h"
+#include "session/model_preview.h"
 #include "views/slice_view.h"
 
 namespace glisson {
@@ -82,6 +83,10 @@ void Screenshot::settle() {
 }
 
 void Screenshot::take() {
+  if (window_.session().preview().busy()) {  // the model is still being made
+    QTimer::singleShot(settle_ms, this, &Screenshot::take);
+    return;
+  }
   static constexpr std::array names = {"load", "segment", "model", "retract", "compare"};
   QString file = wish_.file;
   if (wish_.steps.size() > 1) {

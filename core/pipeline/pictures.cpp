@@ -8,10 +8,7 @@
 #include "render/maps.h"
 
 namespace glisson::pipeline {
-namespace {
 
-/// Where the two predictions differ most in a slice, in the middle between the two places; the middle of the image
-/// where nothing moves.
 Eigen::Vector3d placeOfLargestDifference(const render::RetractionScene& p, int slice) {
   const image::Grid& grid = p.u_mre_mm.grid;
   const image::Grid& mri = p.mri.grid;
@@ -30,6 +27,8 @@ Eigen::Vector3d placeOfLargestDifference(const render::RetractionScene& p, int s
     }
   return place;
 }
+
+namespace {
 
 /// The slice that holds a point.
 int sliceOf(const image::Grid& grid, const Eigen::Vector3d& p_lps) {

@@ -21,6 +21,10 @@ struct NamedCamera {
 /// Throws BadInput.
 NamedCamera cameraFromText(const std::string& text);
 
+/// Where the two predictions differ most in a slice (k of the MRI), in the middle between the two places; the middle of
+/// the image where nothing moves.
+Eigen::Vector3d placeOfLargestDifference(const render::RetractionScene& scene, int slice);
+
 /// Which pictures, and how.
 struct PictureOptions {
   render::Palette palette = render::Palette::RedBlue;

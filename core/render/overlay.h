@@ -41,6 +41,9 @@ struct RetractionScene {
   bool valid = true;    ///< false: a "not converged / outside validity" mark is drawn across
 };
 
+/// Arrows that one picture shows at most.
+inline constexpr int mostArrows = 400;
+
 struct SliceOverlayOptions {
   int slice = -1;  ///< k of the MRI grid; −1 = the slice with the largest MRE-atlas difference inside the liver
   Palette palette = Palette::RedBlue;
@@ -50,6 +53,8 @@ struct SliceOverlayOptions {
   bool outlines = true;   ///< of the moved liver and vessels, in each channel
   std::optional<Eigen::Vector3d> zoomCentre_lps_mm{};  ///< draw an inset magnified around this point
   double zoom_mm = 40.0;
+  bool arrows = false;      ///< displacement of both answers, true to scale, with a reference of 10 mm
+  double arrows_mm = 12.0;  ///< between arrows; wider apart where there would be more than mostArrows
   std::optional<double>
       margin_mm{};  ///< cut the picture to the liver (at rest and moved) plus this margin; unset: all of it
 };
@@ -98,6 +103,8 @@ struct SceneOptions3D {
   int height = 1200;
   double t = 1.0;  ///< fraction of the displacement shown, 0 = rest
   bool decorate = true;
+  bool arrows = false;      ///< displacement of both answers times t, true to scale
+  double arrows_mm = 18.0;  ///< between arrows; wider apart where there would be more than mostArrows
 };
 
 /// Fills a renderer (on screen or off) with the 3-D overlay: liver at rest (faint), vessels deformed by MRE (blue) and

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "render/arrows.h"
 #include "render/colour_map.h"
 #include "render/detail/scene3d_parts.h"
 #include "render/detail/viewpoint.h"
@@ -110,6 +111,28 @@ class Stage {
     add(label3D(middle, "5 cm", colours::light, font_px_, false));
   }
 
+  /// Displacements from rest, true to scale, heads in the plane of the screen. After aim().
+  void drawArrows(const std::vector<DisplacementArrow>& arrows, const SceneColours& colour, double t) {
+    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> mre, atlas;
+    const auto arrow = [&](auto& lines, const Eigen::Vector3d& from, const Eigen::Vector3d& whole) {
+      const Eigen::Vector3d to = from + t * (whole - from),
+                            seen = (to - from) - (to - from).dot(view_.fromEye) * view_.fromEye;
+      if ((to - from).norm() < 0.2) return;
+      lines.emplace_back(from, to);
+      if (seen.norm() < 0.2) return;
+      const double back = std::min(2.2, 0.4 * seen.norm());
+      const Eigen::Vector3d along = seen.normalized(), aside = view_.fromEye.cross(along);
+      for (const double side : {-0.6, 0.6}) lines.emplace_back(to, to - back * along + side * back * aside);
+    };
+    for (const DisplacementArrow& a : arrows) {
+      arrow(mre, a.rest, a.mre);
+      arrow(atlas, a.rest, a.atlas);
+    }
+    if (!atlas.empty()) add(segments(atlas, mixed(colour.atlas, {255, 255, 255}, 0.2), 1.8 * line_px_));
+    if (!mre.empty()) add(segments(mre, mixed(colour.mre, {255, 255, 255}, 0.2), 1.8 * line_px_));
+    arrows_ = arrows.size();
+  }
+
   void drawText(const RetractionScene& scene, const SceneColours& colour, double t) {
     const double lineHeight = 1.55 * font_px_ / height_, side = 1.1 * font_px_;
     double y = 1.0 - 1.9 * font_px_ / height_;
@@ -125,6 +148,7 @@ class Stage {
     row({150, 158, 168}, "liver at rest");
     if (scene.retractorPoint_lps_mm) row({205, 210, 216}, "retractor");
     row({50, 170, 95}, gridEntry);
+    if (arrows_ > 0) row(colours::light, std::to_string(arrows_) + " places, to scale");
     if (t < 1.0)
       add(screenText(x, y, std::to_string(std::lround(100.0 * t)) + " % of the retraction", colours::light, font_px_,
                      false));
@@ -202,6 +226,7 @@ class Stage {
   Viewpoint view_;
   double width_, height_, font_px_, line_px_;
   double mmPerPixel_ = 1.0;
+  std::size_t arrows_ = 0;
   std::vector<Eigen::AlignedBox2d> taken_px_;  ///< on the screen, from the projection of the patient's origin
 };
 
@@ -271,6 +296,7 @@ void populateScaled(vtkRenderer* renderer, const RetractionScene& scene, const S
   }
   box = roundedOut({box.min() - Eigen::Vector3d::Constant(4.0), box.max() + Eigen::Vector3d::Constant(4.0)}, grid_mm);
   stage.aim(box, options.decorate);
+  if (options.arrows) stage.drawArrows(displacementArrows(scene, options.arrows_mm, mostArrows), colour, options.t);
   if (options.decorate) {
     stage.drawGrid(box);
     stage.drawText(scene, colour, options.t);

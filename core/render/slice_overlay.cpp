@@ -5,7 +5,9 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "render/arrows.h"
 #include "render/overlay.h"
+#include "render/painter.h"
 #include "render/sampling.h"
 #include "render/slice_frame.h"
 #include "render/stroke_cover.h"
@@ -251,6 +253,38 @@ std::string formatted(const char* pattern, double a, double b = 0.0) {
   return text;
 }
 
+/// A straight arrow with a dark edge.
+void paintArrow(Painter& painter, const Point& from, const Point& to, Rgb colour, double width) {
+  const double length = (to - from).norm();
+  if (length < 1.0) return;
+  const Point along = (to - from) / length, aside(-along.y(), along.x());
+  const double back = std::min(5.0 * width, 0.5 * length);
+  for (const auto& [paint, thick] : {std::pair{Rgb{0, 0, 0}, width + 1.6}, {colour, width}}) {
+    const Stroke stroke{.colour = paint, .width = thick, .alpha = 0.95};
+    painter.line(from, to, stroke);
+    painter.line(to, to - back * along + 0.55 * back * aside, stroke);
+    painter.line(to, to - back * along - 0.55 * back * aside, stroke);
+  }
+}
+
+/// Displacements in the plane of the slice and an arrow of 10 mm to compare them with.
+void paintArrows(Picture& picture, const SlicePlane& plane, const std::vector<DisplacementArrow>& arrows, Rgb mre,
+                 Rgb atlas) {
+  RasterPainter painter(picture);
+  const double width = std::max(1.4, std::min(picture.width, picture.height) / 420.0);
+  for (const DisplacementArrow& a : arrows) {
+    paintArrow(painter, plane.toPixel(a.rest), plane.toPixel(a.atlas), atlas, width);
+    paintArrow(painter, plane.toPixel(a.rest), plane.toPixel(a.mre), mre, width);
+  }
+  const double size = frameFontSize(picture), length = 10.0 / plane.mmPerPixel;
+  // In the upper left corner: the scale bar is in the lower one.
+  const Point from(0.9 * size, 2.3 * size);
+  painter.rectangle(0.3 * size, 0.3 * size, from.x() + std::max(length, 8.6 * size) + 0.6 * size, 3.0 * size, {0, 0, 0},
+                    0.6);
+  painter.text(from - Point(0.0, 0.75 * size), "moved by 10 mm", {.size_px = size, .colour = colours::light});
+  paintArrow(painter, from, from + Point(length, 0.0), colours::light, width);
+}
+
 Picture overlayOf(const Composer& composer, const RetractionScene& scene, const SliceOverlayOptions& options) {
   if (!(options.grid_mm > 0.0) || !(options.zoom_mm > 0.0))
     throw BadArgument("grid spacing and zoom width must be positive millimetres");
@@ -262,11 +296,15 @@ Picture overlayOf(const Composer& composer, const RetractionScene& scene, const 
     plane = cropOf(plane, low - margin, high + margin);
   }
   Picture picture = composer.draw(plane, options);
+  const bool redBlue = options.palette == Palette::RedBlue;
+  const Rgb mreColour = redBlue ? Rgb{90, 120, 255} : Rgb{70, 160, 255};
+  const Rgb atlasColour = redBlue ? Rgb{255, 80, 80} : Rgb{255, 165, 40};
+  if (options.arrows)
+    paintArrows(picture, plane, displacementArrows(scene, options.arrows_mm, mostArrows, k), mreColour, atlasColour);
   if (!scene.valid) drawNotValid(picture);
   if (!options.decorate) return picture;
 
   SliceFrame frame{.plane = plane};
-  const bool redBlue = options.palette == Palette::RedBlue;
   frame.legend = {{redBlue ? Rgb{40, 60, 255} : Rgb{0, 115, 255}, "MRE"},
                   {redBlue ? Rgb{255, 30, 30} : Rgb{255, 140, 0}, "Atlas"},
                   {redBlue ? Rgb{214, 40, 255} : Rgb{255, 255, 255}, "agree"},
@@ -275,6 +313,7 @@ Picture overlayOf(const Composer& composer, const RetractionScene& scene, const 
                      formatted(". Largest MRE-atlas difference in this slice: %.1f mm (clinically significant: %g mm).",
                                largestDifferenceInSlice_mm(scene, k), scene.clinicallySignificant_mm),
                  "Surroundings of the liver are not simulated: shown at rest, dimmed."};
+  if (options.arrows) frame.notes.push_back("Arrows: displacement from rest in the plane of the slice, true to scale.");
   frame.caption = scene.caption;
   frame.mark = scene.mark;
   frame.gridTicks_mm = options.grid_mm;

@@ -1,12 +1,15 @@
 #include "panels/compare_page.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QScrollArea>
 #include <QSlider>
 #include <QSplitter>
 #include <QStackedWidget>
+#include <QTreeWidget>
 
 #include "panels/form.h"
+#include "pipeline/pictures.h"
 #include "panels/method_chart.h"
 #include "render/maps.h"
 #include "session/session.h"
@@ -130,6 +133,23 @@ QWidget* ComparePage::makeSide() {
   chart_->setObjectName(QStringLiteral("besideChoice"));
   chart_->addItems({tr("3-D"), tr("Box plot"), tr("Error against run time")});
   form->addRow(tr("Beside it"), chart_);
+  arrows_ = new QCheckBox(tr("Displacement arrows"));
+  arrows_->setObjectName(QStringLiteral("arrowsChoice"));
+  arrows_->setToolTip(tr("From rest to where either answer puts a place, true to scale, in the slice and in 3-D; at "
+                         "most %1 places").arg(render::mostArrows));
+  form->addRow(QString(), arrows_);
+  magnify_ = new QCheckBox(tr("Magnify the difference"));
+  magnify_->setObjectName(QStringLiteral("magnifyChoice"));
+  magnify_->setToolTip(tr("Beside the slice: where both answers differ most in it, or the vessel that was chosen"));
+  magnify_->setChecked(true);
+  form->addRow(QString(), magnify_);
+  connect(arrows_, &QCheckBox::toggled, this, [this](bool on) {
+    scene_->setArrows(on);
+    drawSlice();
+  });
+  connect(magnify_, &QCheckBox::toggled, this, &ComparePage::drawSlice);
+  connect(scene_, &views::SceneView::markChosen, this,
+          [this](int id) { list_->setCurrentItem(list_->topLevelItem(id - 1)); });
   side->addLayout(form);
   export_ = button("exportButton", tr("Export pictures and report…"), {},
                    tr("Slices, difference map, 3-D and box plot in these colours, report and record of the run"));
@@ -186,7 +206,9 @@ void ComparePage::drawSlice() {
   options.slice = chosen_ ? slice_->value() : -1;
   options.palette = palette_();
   options.margin_mm = 40.0;
-  options.zoomCentre_lps_mm = zoom_;
+  options.arrows = arrows_->isChecked();
+  const bool magnify = magnify_->isChecked();
+  const auto zoom = zoom_;
   const bool difference = what_->currentIndex() == 1;
   struct Drawn {
     render::Picture picture;
@@ -194,10 +216,12 @@ void ComparePage::drawSlice() {
   };
   auto drawn = std::make_shared<Drawn>();
   painter_.start(
-      [picture, options, drawn, difference](const Progress&) mutable {
+      [picture, options, drawn, difference, magnify, zoom](const Progress&) mutable {
         // The first picture is of the slice where MRE and atlas differ most.
         if (options.slice < 0) options.slice = render::sliceOfLargestDifference(*picture);
         drawn->slice = options.slice;
+        if (magnify)
+          options.zoomCentre_lps_mm = zoom ? *zoom : pipeline::placeOfLargestDifference(*picture, options.slice);
         if (difference) {
           render::MapOptions map{.high = 10.0};
           map.slice = options.slice;

@@ -8,6 +8,7 @@
 #include "session/export_results.h"
 #include "session/worker.h"
 
+class QCheckBox;
 class QComboBox;
 class QLabel;
 class QPushButton;
@@ -38,6 +39,7 @@ class ComparePage : public QWidget {
 
  signals:
   void overlayShown(int slice);                     ///< a slice overlay was drawn and is on screen
+  void placeChosen(const Eigen::Vector3d& p_lps);   ///< in the list or in 3-D: at rest
   void exported(int files, const QString& reason);  ///< reason: empty where it went well
 
  private:
@@ -46,6 +48,7 @@ class ComparePage : public QWidget {
   void showNumbers();
   void showVessels();
   void showVessel(int row);
+  void markVessels(int chosen);
   void drawSlice();
   void drawBoxes();
   void askWhereTo();
@@ -64,6 +67,7 @@ class ComparePage : public QWidget {
   views::PictureView* boxes_;
   QStackedWidget* beside_;
   QTreeWidget* list_;
+  QCheckBox *arrows_, *magnify_;
   QPushButton* export_;
   QSlider* slice_;
   QLabel *sliceText_, *retractor_, *numbers_, *vessels_, *validity_;

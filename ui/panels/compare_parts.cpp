@@ -5,11 +5,13 @@
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QTreeWidget>
+#include <algorithm>
 
 #include "panels/compare_page.h"
 #include "panels/form.h"
 #include "session/session.h"
 #include "views/picture_view.h"
+#include "views/scene_view.h"
 
 namespace glisson::panels {
 
@@ -64,6 +66,24 @@ void ComparePage::showVessels() {
     rows << row;
   }
   list_->addTopLevelItems(rows);
+  markVessels(-1);
+}
+
+/// Rings round the listed places in 3-D, the chosen one larger and with its distance.
+void ComparePage::markVessels(int chosen) {
+  std::vector<views::Mark> marks;
+  const int count = static_cast<int>(places_.size());
+  for (int n = 0; n < count; ++n) {
+    const session::VesselPlace& place = places_[static_cast<std::size_t>(n)];
+    views::Mark mark{.id = n + 1, .at_lps = place.seen_lps, .shape = views::Mark::Shape::Ring};
+    mark.colour = QColor(255, 176, 32);
+    mark.current = n == chosen;
+    if (mark.current) mark.text = tr("%1 mm").arg(place.apart_mm, 0, 'f', 1);
+    marks.push_back(mark);
+  }
+  // The chosen one lies over its neighbours.
+  if (chosen >= 0 && chosen < count) std::rotate(marks.begin() + chosen, marks.begin() + chosen + 1, marks.end());
+  scene_->setMarks(std::move(marks));
 }
 
 void ComparePage::showVessel(int row) {
@@ -71,6 +91,8 @@ void ComparePage::showVessel(int row) {
   if (row < 0 || row >= static_cast<int>(places_.size()) || !picture) return;
   zoom_ = places_[static_cast<std::size_t>(row)].seen_lps;
   chosen_ = true;
+  markVessels(row);
+  emit placeChosen(places_[static_cast<std::size_t>(row)].rest_lps);
   const QSignalBlocker quiet(slice_);
   slice_->setValue(qRound(picture->mri.grid.lpsToIndex(*zoom_).z()));
   drawSlice();

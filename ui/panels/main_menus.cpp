@@ -36,9 +36,9 @@ void MainWindow::makeMenus() {
   file->addSeparator();
   add(file, "quitAction", tr("&Quit"), QKeySequence::Quit, &QWidget::close);
   QMenu* edit = menuBar()->addMenu(tr("&Edit"));
-  undoAction_ = add(edit, "undoAction", tr("&Undo"), QKeySequence::Undo, [this] { session_.undo(); });
+  undoAction_ = add(edit, "undoAction", tr("&Undo"), QKeySequence::Undo, [this] { placing() ? session_.undoPlacement() : session_.undo(); });
   redoAction_ =
-      add(edit, "redoAction", tr("&Redo"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z), [this] { session_.redo(); });
+      add(edit, "redoAction", tr("&Redo"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z), [this] { placing() ? session_.redoPlacement() : session_.redo(); });
   edit->addSeparator();
   interpolateAction_ =
       add(edit, "interpolateAction", tr("&Interpolate between slices"), {}, [this] { session_.interpolateOutlines(); });

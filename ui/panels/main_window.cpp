@@ -136,6 +136,12 @@ void MainWindow::connectSession() {
     statusBar()->showMessage(
         reason.isEmpty() ? tr("Exported %1 files.").arg(files) : tr("Not exported: %1").arg(reason), 12000);
   });
+  connect(compare_, &ComparePage::placeChosen, this, [this](const Eigen::Vector3d& p_lps) {
+    for (views::SliceView* view : {segment_->mriView(), segment_->mreView()}) {
+      view->showPoint(p_lps);
+      view->setCursor(p_lps);
+    }
+  });
   connect(model_, &ModelPage::runWanted, this, &MainWindow::run);
   connect(retract_, &RetractPage::runWanted, this, &MainWindow::run);
   connect(&session_, &Session::statusChanged, this, &MainWindow::updateStatus);
@@ -171,10 +177,12 @@ void MainWindow::showProgress(double fraction, const QString& what, double secon
 void MainWindow::updateStatus() {
   for (const Step step : session::steps) rail_->setStatus(step, session_.status(step));
   const bool open = session_.images().mri != nullptr;
-  undoAction_->setEnabled(session_.canUndo());
-  undoAction_->setText(session_.canUndo() ? tr("&Undo %1").arg(session_.undoText()) : tr("&Undo"));
-  redoAction_->setEnabled(session_.canRedo());
-  redoAction_->setText(session_.canRedo() ? tr("&Redo %1").arg(session_.redoText()) : tr("&Redo"));
+  const QString undo = placing() ? session_.undoPlacementText() : session_.undoText();
+  const QString redo = placing() ? session_.redoPlacementText() : session_.redoText();
+  undoAction_->setEnabled(placing() ? session_.canUndoPlacement() : session_.canUndo());
+  undoAction_->setText(undo.isEmpty() ? tr("&Undo") : tr("&Undo %1").arg(undo));
+  redoAction_->setEnabled(placing() ? session_.canRedoPlacement() : session_.canRedo());
+  redoAction_->setText(redo.isEmpty() ? tr("&Redo") : tr("&Redo %1").arg(redo));
   importAction_->setEnabled(open);
   saveAction_->setEnabled(open);
   saveAsAction_->setEnabled(open);
@@ -202,6 +210,12 @@ void MainWindow::showStep(Step step) {
   rail_->setCurrent(step);
   pages_->setCurrentIndex(static_cast<int>(step));
   if (step == Step::Segment) segment_->mriView()->setFocus();
+  updateStatus();
+}
+
+// Undo takes back what the page shows: outlines are not on the pages of model and retraction.
+bool MainWindow::placing() const {
+  return step() == Step::Model || step() == Step::Retract;
 }
 
 Step MainWindow::step() const {

@@ -58,6 +58,7 @@ class MainWindow : public QMainWindow {
   void connectSession();
   void refreshIcons();
   void updateStatus();
+  bool placing() const;  ///< undo and redo are those of what is laid by hand
   void showProgress(double fraction, const QString& what, double secondsLeft);
   bool mayDiscard();
   void offerRecovery();

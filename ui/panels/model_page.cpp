@@ -5,10 +5,12 @@
 #include <QComboBox>
 #include <QHeaderView>
 #include <QSpinBox>
+#include <QSplitter>
 #include <QStandardItemModel>
 #include <QTreeWidget>
 
 #include "panels/form.h"
+#include "panels/model_stage.h"
 #include "pipeline/plan.h"
 #include "session/session.h"
 
@@ -52,7 +54,14 @@ ModelPage::ModelPage(session::Session& session, QWidget* parent) : QWidget(paren
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(0);
-  row->addWidget(centre, 1);
+  auto* both = new QSplitter(Qt::Vertical);
+  both->setHandleWidth(3);
+  both->setChildrenCollapsible(false);
+  both->addWidget(new ModelStage(session_));
+  both->addWidget(centre);
+  both->setStretchFactor(0, 3);
+  both->setStretchFactor(1, 2);
+  row->addWidget(both, 1);
   row->addWidget(makeSide());
   connect(&session_, &session::Session::parametersChanged, this, [this] {
     show_();

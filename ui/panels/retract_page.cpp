@@ -2,24 +2,46 @@
 
 #include <QComboBox>
 #include <QSlider>
+#include <QSplitter>
+#include <tuple>
 
 #include "panels/form.h"
+#include "panels/grey_window.h"
 #include "panels/live_bar.h"
+#include "panels/placement_editor.h"
 #include "session/session.h"
 #include "views/scene_view.h"
+#include "views/slice_view.h"
 
 namespace glisson::panels {
 
 RetractPage::RetractPage(session::Session& session, QWidget* parent)
-    : QWidget(parent), session_(session), scene_(new views::SceneView), live_(new LiveBar(session, *scene_)) {
+    : QWidget(parent),
+      session_(session),
+      scene_(new views::SceneView),
+      slice_(new views::SliceView),
+      live_(new LiveBar(session, *scene_)),
+      placement_(new PlacementEditor(session, *scene_, *slice_)) {
   scene_->setObjectName(QStringLiteral("retractView"));
-  scene_->setHint(tr("Run the retraction to see the liver move."));
+  scene_->setAccessibleName(tr("The retraction in 3-D"));
+  slice_->setObjectName(QStringLiteral("placementSlice"));
+  slice_->setAccessibleName(tr("MRI slice with bar and holds"));
+  slice_->setContours(&session_.contours(), nullptr);
   auto* centre = new QWidget;
   auto* column = new QVBoxLayout(centre);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  column->addWidget(scene_, 1);
-  column->addWidget(makePlayBar());
+  auto* views = new QSplitter;
+  views->setHandleWidth(3);
+  views->setChildrenCollapsible(false);
+  views->addWidget(scene_);
+  views->addWidget(slice_);
+  views->setStretchFactor(0, 3);
+  views->setStretchFactor(1, 2);
+  column->addWidget(views, 1);
+  column->addWidget(placement_);
+  playBar_ = makePlayBar();
+  column->addWidget(playBar_);
   column->addWidget(live_);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
@@ -28,11 +50,43 @@ RetractPage::RetractPage(session::Session& session, QWidget* parent)
   row->addWidget(makeSide());
   connect(&session_, &session::Session::parametersChanged, this, &RetractPage::showParameters);
   connect(&session_, &session::Session::runFinished, this, &RetractPage::showResult);
-  connect(&session_, &session::Session::loaded, this, &RetractPage::showResult);
+  connect(&session_, &session::Session::loaded, this, [this] {
+    views::ShownVolume mri;
+    mri.values = session_.images().mri;
+    mri.title = tr("MRI");
+    if (mri.values) std::tie(mri.low, mri.high) = windowOf(*mri.values);
+    slice_->setVolume(std::move(mri));
+    showResult();
+  });
+  connect(&session_, &session::Session::contoursChanged, slice_, qOverload<>(&QWidget::update));
   connect(&session_, &session::Session::statusChanged, this, [this] { run_->setEnabled(!session_.busy()); });
   clock_.setInterval(40);
   connect(&clock_, &QTimer::timeout, this, [this] { time_->setValue(time_->value() >= 100 ? 0 : time_->value() + 2); });
   showParameters();
+  setPlacing(true);
+}
+
+void RetractPage::showEvent(QShowEvent*) {
+  if (place_->isChecked()) placement_->setActive(true);
+}
+
+// Before a run there is nothing but the model to look at; after it, either is shown.
+void RetractPage::setPlacing(bool placing) {
+  const bool run = session_.picture() != nullptr;
+  placing = placing || !run;
+  const QSignalBlocker quiet(place_);
+  place_->setChecked(placing);
+  place_->setEnabled(run);
+  slice_->setVisible(placing);
+  if (placing) {
+    setPlaying(false);
+    live_->setLive(false);
+  }
+  playBar_->setVisible(run && !placing);
+  live_->setVisible(run && !placing);
+  placement_->setActive(placing && isVisible());
+  placement_->setVisible(placing);
+  if (!placing) scene_->setScene(session_.picture());
 }
 
 QWidget* RetractPage::makePlayBar() {
@@ -87,8 +141,12 @@ QWidget* RetractPage::makeSide() {
                     tr("Hoisting force, towards anterior in the transverse plane"));
   retractor->addRow(tr("Force"), force_);
   side->addLayout(retractor);
-  side->addWidget(labelled(
-      tr("Under the inferior right lobe, hoisted towards anterior. The same load for MRE and atlas."), "faint"));
+  place_ = button("placeButton", tr("Place by hand"), {},
+                  tr("Shows the liver at rest: lay the bar, turn its hoist, hold the liver, in 3-D or on a slice"));
+  place_->setCheckable(true);
+  connect(place_, &QPushButton::toggled, this, &RetractPage::setPlacing);
+  side->addWidget(place_);
+  side->addWidget(labelled(tr("The same load for MRE and atlas."), "faint"));
   side->addSpacing(8);
   side->addWidget(section(tr("Abdomen")));
   auto* abdomen = new QFormLayout;
@@ -148,7 +206,7 @@ void RetractPage::setPlaying(bool playing) {
 void RetractPage::showResult() {
   setPlaying(false);
   const auto result = session_.result();
-  scene_->setScene(session_.picture());
+  setPlacing(false);
   play_->setEnabled(scene_->hasScene());
   time_->setEnabled(scene_->hasScene());
   time_->setValue(100);

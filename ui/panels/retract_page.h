@@ -14,21 +14,29 @@ class Session;
 }
 namespace glisson::views {
 class SceneView;
-}
+class SliceView;
+}  // namespace glisson::views
 
 namespace glisson::panels {
 
 class LiveBar;
+class PlacementEditor;
 
-/// Retract: the retractor and the abdomen; after a run the moving liver with a play bar, and the retractor in the hand.
+/// Retract: bar, hoist and holds laid by hand; after a run the moving liver with a play bar, and the retractor in the
+/// hand.
 class RetractPage : public QWidget {
   Q_OBJECT
  public:
   explicit RetractPage(session::Session& session, QWidget* parent = nullptr);
   views::SceneView* sceneView() const { return scene_; }
 
+  PlacementEditor* placement() const { return placement_; }
+
  signals:
   void runWanted();
+
+ protected:
+  void showEvent(QShowEvent* event) override;
 
  private:
   QWidget* makeSide();
@@ -37,11 +45,15 @@ class RetractPage : public QWidget {
   void showParameters();
   void showResult();
   void setPlaying(bool playing);
+  void setPlacing(bool placing);
   session::Session& session_;
   views::SceneView* scene_;
+  views::SliceView* slice_;
   LiveBar* live_;
+  PlacementEditor* placement_;
+  QWidget* playBar_;
   QSlider* time_;
-  QPushButton *play_, *run_;
+  QPushButton *play_, *run_, *place_;
   QLabel *fraction_, *numbers_, *validity_;
   QDoubleSpinBox *diameter_, *length_, *spread_, *force_, *abdomen_;
   QComboBox* forceKind_;

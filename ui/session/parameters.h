@@ -2,6 +2,7 @@
 
 #include "base/quantity.h"
 #include "retraction/setup.h"
+#include "session/placement.h"
 #include "session/methods.h"
 
 namespace glisson::session {
@@ -32,6 +33,7 @@ struct Parameters {
   bool forceIsWeight = true;
   double force_N = 15.0;            ///< where it is not the liver's weight
   double abdomen_kPa_per_mm = 0.1;  ///< Winkler foundation, posterior and superior surface
+  Placement placement;              ///< of bar, hoist and holds, by hand
 
   bool operator==(const Parameters&) const = default;
 };

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "session/parameters.h"
+#include "session/placement_json.h"
 
 namespace glisson::session {
 
@@ -29,7 +30,8 @@ inline nlohmann::json toJson(const Parameters& p) {
           {"retractor_spread_mm", p.retractorSpread_mm},
           {"force_is_weight", p.forceIsWeight},
           {"force_N", p.force_N},
-          {"abdomen_kPa_per_mm", p.abdomen_kPa_per_mm}};
+          {"abdomen_kPa_per_mm", p.abdomen_kPa_per_mm},
+          {"placement", toJson(p.placement)}};
 }
 
 /// The reverse. Throws BadInput for a choice that is not known, nlohmann's exceptions for a missing key or another
@@ -58,6 +60,7 @@ inline Parameters parametersFromJson(const nlohmann::json& j) {
   p.forceIsWeight = j.at("force_is_weight").get<bool>();
   p.force_N = j.at("force_N").get<double>();
   p.abdomen_kPa_per_mm = j.at("abdomen_kPa_per_mm").get<double>();
+  if (j.contains("placement")) p.placement = placementFromJson(j["placement"]);
   return p;
 }
 

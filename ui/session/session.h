@@ -29,6 +29,8 @@
 
 namespace glisson::session {
 
+class ModelPreview;
+
 /// The volumes that are shown and measured, with the series they came from (indices into the scan).
 struct OpenImages {
   std::shared_ptr<const image::ScalarVolume> mri;
@@ -129,6 +131,18 @@ class Session : public QObject {
   // Model, Retract, Compare
   const Parameters& parameters() const { return parameters_; }
   void setParameters(const Parameters& parameters);
+  /// What was laid by hand, one step of an undo of its own: that of the outlines is not touched. what: for the menu.
+  void place(const Placement& placement, double barLength_mm, const QString& what);
+  void undoPlacement();
+  void redoPlacement();
+  bool canUndoPlacement() const { return placingsDone_ > 0; }
+  bool canRedoPlacement() const { return placingsDone_ < placings_.size(); }
+  QString undoPlacementText() const { return canUndoPlacement() ? placings_[placingsDone_ - 1].what : QString(); }
+  QString redoPlacementText() const { return canRedoPlacement() ? placings_[placingsDone_].what : QString(); }
+  ModelPreview& preview();  ///< the model as it would be run now
+  std::uint64_t revision() const { return revision_; }  ///< grows with everything that a run depends on
+  /// The case by value, as it would be written into the folder now.
+  CaseFiles caseFiles(const std::filesystem::path& folder) const;
   /// What would run now; paths are those of saveCase(folder).
   pipeline::Scene scene(const std::filesystem::path& folder) const;
   void run();  ///< saves the case into the work folder and does what the command line would do with it
@@ -192,7 +206,6 @@ class Session : public QObject {
   void beginJournal();
   Eigen::Vector3d middleOf(int slice) const;
   void paste(const std::vector<int>& slices, roi::PolygonState state, const char* text);
-  CaseFiles caseFiles(const std::filesystem::path& folder) const;
   void ended(Work work, std::exception_ptr failure);
   void measure();
   void contoursTouched();
@@ -215,6 +228,20 @@ class Session : public QObject {
   LiveStatistics statistics_;
   QTimer measureTimer_;
   Parameters parameters_;
+  struct Placed {
+    Placement placement;
+    double barLength_mm = 0.0;
+    bool operator==(const Placed&) const = default;
+  };
+  struct Placing {
+    Placed before, after;
+    QString what;
+  };
+  void take(const Placed& placed);
+  void forgetPlacings();
+  std::vector<Placing> placings_;
+  std::size_t placingsDone_ = 0;
+  ModelPreview* preview_ = nullptr;  ///< a child; made when first asked for
   QString workFolder_, caseFolder_, journalFolder_;
   std::shared_ptr<CaseLock> lock_;
   std::unique_ptr<Journal> journal_;

@@ -49,6 +49,7 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
   retractor.spread_mm = parameters_.retractorSpread_mm;
   if (!parameters_.forceIsWeight) retractor.force_N = parameters_.force_N;
   s.setup.loads.push_back(retractor);
+  session::apply(parameters_.placement, s.setup);
   s.compare = pipeline::CompareSpec{parameters_.atlasShear_kPa, StiffnessQuantity::Shear};
   s.outputs.vessels = s.outputs.overlay = s.outputs.report = true;
   return s;

@@ -252,6 +252,7 @@ void Session::take(Opened& opened) {
   }
   caseFolder_ = QString::fromStdString(opened.wanted.caseFolder.string());
   lock_ = std::move(opened.wanted.lock);
+  parameters_.placement = {};  // of another patient
   if (opened.wanted.record) {
     contours_ = std::move(opened.wanted.record->outlines);
     parameters_ = opened.wanted.record->parameters;
@@ -265,6 +266,7 @@ void Session::take(Opened& opened) {
     modified_ = true;
   }
   undo_.clear();
+  forgetPlacings();
   tool_.selectPolygon(std::nullopt);
   tool_.contoursChanged();
   plane_.reset();

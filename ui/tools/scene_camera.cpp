@@ -52,8 +52,21 @@ void SceneCamera::fit(const Eigen::AlignedBox3d& box, const Eigen::Vector2d& vie
   distance_mm = 4.0 * box.diagonal().norm();
 }
 
+namespace {
+
+/// As steeply as a face has to look against the hoist to bear (retraction: findContact).
+bool looksAgainst(const anatomy::TriangleMesh& mesh, Eigen::Index t, const Eigen::Vector3d& direction) {
+  constexpr double leastCosine = 0.3;
+  const Eigen::Vector3d a = mesh.vertices_lps_mm.col(mesh.triangles(0, t));
+  const Eigen::Vector3d n =
+      (mesh.vertices_lps_mm.col(mesh.triangles(1, t)) - a).cross(mesh.vertices_lps_mm.col(mesh.triangles(2, t)) - a);
+  return n.dot(direction) < -leastCosine * n.norm() * direction.norm();
+}
+
+}  // namespace
+
 std::optional<Eigen::Vector3d> firstHit(const anatomy::TriangleMesh& mesh, const Eigen::Vector3d& from,
-                                        const Eigen::Vector3d& along) {
+                                        const Eigen::Vector3d& along, const std::optional<Eigen::Vector3d>& against) {
   double nearest = std::numeric_limits<double>::infinity();
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     const Eigen::Vector3d a = mesh.vertices_lps_mm.col(mesh.triangles(0, t));
@@ -61,7 +74,7 @@ std::optional<Eigen::Vector3d> firstHit(const anatomy::TriangleMesh& mesh, const
     const Eigen::Vector3d e2 = mesh.vertices_lps_mm.col(mesh.triangles(2, t)) - a;
     const Eigen::Vector3d n = along.cross(e2);
     const double det = e1.dot(n);
-    if (std::abs(det) < 1e-12) continue;
+    if (std::abs(det) < 1e-12 || (against && !looksAgainst(mesh, t, *against))) continue;
     const Eigen::Vector3d s = from - a;
     const double u = s.dot(n) / det;
     if (u < 0.0 || u > 1.0) continue;
@@ -75,11 +88,20 @@ std::optional<Eigen::Vector3d> firstHit(const anatomy::TriangleMesh& mesh, const
   return from + nearest * along;
 }
 
-std::optional<Eigen::Vector3d> nearestVertex(const anatomy::TriangleMesh& mesh, const Eigen::Vector3d& p_lps) {
-  if (mesh.vertices_lps_mm.cols() == 0) return {};
-  Eigen::Index at = 0;
-  (mesh.vertices_lps_mm.colwise() - p_lps).colwise().squaredNorm().minCoeff(&at);
-  return mesh.vertices_lps_mm.col(at);
+std::optional<Eigen::Vector3d> nearestVertex(const anatomy::TriangleMesh& mesh, const Eigen::Vector3d& p_lps,
+                                             const std::optional<Eigen::Vector3d>& against) {
+  std::optional<Eigen::Vector3d> best;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    if (against && !looksAgainst(mesh, t, *against)) continue;
+    for (int c = 0; c < 3; ++c) {
+      const Eigen::Vector3d v = mesh.vertices_lps_mm.col(mesh.triangles(c, t));
+      if ((v - p_lps).squaredNorm() >= nearest) continue;
+      nearest = (v - p_lps).squaredNorm();
+      best = v;
+    }
+  }
+  return best;
 }
 
 }  // namespace glisson::tools

@@ -37,11 +37,14 @@ struct SceneCamera {
   bool operator==(const SceneCamera&) const = default;
 };
 
-/// Where a straight line from `from` along `along` first meets the surface in front of it.
+/// Where a straight line from `from` along `along` first meets the surface in front of it. against: only where the
+/// surface (oriented outwards) looks against this direction, as a bar bears that pulls along it.
 std::optional<Eigen::Vector3d> firstHit(const anatomy::TriangleMesh& mesh, const Eigen::Vector3d& from_lps,
-                                        const Eigen::Vector3d& along);
+                                        const Eigen::Vector3d& along,
+                                        const std::optional<Eigen::Vector3d>& against = std::nullopt);
 
-/// The place on the surface (its vertices) nearest to a point; nothing where it has none.
-std::optional<Eigen::Vector3d> nearestVertex(const anatomy::TriangleMesh& mesh, const Eigen::Vector3d& p_lps);
+/// The vertex nearest to a point, of those triangles that look against a direction; nothing where there is none.
+std::optional<Eigen::Vector3d> nearestVertex(const anatomy::TriangleMesh& mesh, const Eigen::Vector3d& p_lps,
+                                             const std::optional<Eigen::Vector3d>& against = std::nullopt);
 
 }  // namespace glisson::tools

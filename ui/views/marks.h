@@ -19,12 +19,13 @@ struct Mark {
   Eigen::Vector3d at_lps = Eigen::Vector3d::Zero();
   Shape shape = Shape::Dot;
   QColor colour = Qt::white;
-  QString text;                               ///< beside it; may be empty
+  QString text{};                             ///< beside it; may be empty
   std::optional<Eigen::Vector3d> from_lps{};  ///< a line from there; with an arrow's head where `arrow`
   bool arrow = false;
   bool movable = false;
-  bool onSurface = false;  ///< moves over the liver's surface, else across the view
-  bool current = false;    ///< chosen: larger, with a border
+  bool onSurface = false;                    ///< moves over the liver's surface, else across the view
+  std::optional<Eigen::Vector3d> against{};  ///< onSurface: only where it looks against this direction
+  bool current = false;                      ///< chosen: larger, with a border
 };
 
 /// Where a point is seen, logical pixels; nothing where this view does not show it.

@@ -114,11 +114,11 @@ ModelLayer::ModelLayer(const tools::ModelPicture& picture, double pixelRatio) : 
   d_->vessels.actor->GetProperty()->SetInterpolationToPhong();
   d_->vessels.actor->GetProperty()->SetAmbient(0.35);
   d_->vessels.actor->GetProperty()->SetSpecular(0.25);
-  takePoints(d_->sites, picture.sites_lps, (picture.meshfree ? 6.0 : 2.0) * pixelRatio);
+  takePoints(d_->sites, picture.sites_lps, (picture.meshfree ? 6.0 : 1.6) * pixelRatio);
   d_->sites.colour(1.0, 1.0, 1.0);
   for (const auto& support : picture.supports) {
     Part& part = d_->supports.emplace_back();
-    takePoints(part, support.points_lps, (support.fixed ? 5.0 : 3.0) * pixelRatio);
+    takePoints(part, support.points_lps, (support.fixed ? 5.0 : 2.2) * pixelRatio);
     support.fixed ? part.colour(1.0, 0.55, 0.0) : part.colour(0.25, 0.85, 0.80);
   }
   if (picture.bar) {

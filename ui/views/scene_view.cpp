@@ -72,7 +72,6 @@ void SceneView::setScene(std::shared_ptr<const render::RetractionScene> scene) {
   model_.reset();
   painter_.retire(std::exchange(layer_, nullptr));
   painter_.retire(std::exchange(modelLayer_, nullptr));
-  atRest_.reset();
   drag_ = Drag::None;
   image_ = {};
   update();
@@ -82,7 +81,6 @@ void SceneView::setScene(std::shared_ptr<const render::RetractionScene> scene) {
 void SceneView::setModel(std::shared_ptr<const tools::ModelPicture> model) {
   const bool again = model_ && model;
   scene_.reset();
-  atRest_.reset();
   painter_.retire(std::exchange(layer_, nullptr));
   model_ = std::move(model);
   if (!model_) {
@@ -93,18 +91,22 @@ void SceneView::setModel(std::shared_ptr<const tools::ModelPicture> model) {
   }
   if (!again) {
     image_ = {};
-    Eigen::AlignedBox3d box;
-    for (Eigen::Index n = 0; n < model_->liver.vertices_lps_mm.cols(); ++n)
-      box.extend(Eigen::Vector3d(model_->liver.vertices_lps_mm.col(n)));
-    box.extend(box.center() + 0.62 * (box.max() - box.center()) + Eigen::Vector3d(0, 0, 1));
     // From the front, a little from the right and below: where the bar lies.
     camera_ = {};
-    camera_.fromEye = Eigen::Vector3d(0.45, 0.87, 0.20).normalized();
+    camera_.fromEye = Eigen::Vector3d(0.42, 0.80, 0.42).normalized();
     camera_.up = (Eigen::Vector3d::UnitZ() - camera_.fromEye.z() * camera_.fromEye).normalized();
-    camera_.fit(box, size_px());
-    cameraKnown_ = true;
+    fitModel();
   }
   composeModel();
+}
+
+void SceneView::fitModel() {
+  Eigen::AlignedBox3d box;
+  for (Eigen::Index n = 0; n < model_->liver.vertices_lps_mm.cols(); ++n)
+    box.extend(Eigen::Vector3d(model_->liver.vertices_lps_mm.col(n)));
+  // The legend has the right side to itself.
+  camera_.fit(box, size_px() - Eigen::Vector2d(std::min(150.0, 0.3 * width()), 0.0));
+  cameraKnown_ = true;
 }
 
 void SceneView::clear() {
@@ -119,6 +121,12 @@ void SceneView::setFraction(double t) {
 
 void SceneView::setPalette3D(render::Palette palette) {
   options_.palette = palette;
+  compose(true);
+}
+
+void SceneView::setArrows(bool on) {
+  if (options_.arrows == on) return;
+  options_.arrows = on;
   compose(true);
 }
 
@@ -154,7 +162,12 @@ void SceneView::showEvent(QShowEvent*) {
 
 // Legend, scale and texts are laid out for the size of the view.
 void SceneView::resizeEvent(QResizeEvent*) {
-  model_ ? draw(false) : compose(true);
+  if (!model_) {
+    compose(true);
+    return;
+  }
+  if (image_.isNull()) fitModel();  // it was not seen before
+  draw(false);
 }
 
 void SceneView::compose(bool keepCamera) {
@@ -164,15 +177,14 @@ void SceneView::compose(bool keepCamera) {
   options.width = std::max(qRound(width() * devicePixelRatioF()), 64);
   options.height = std::max(qRound(height() * devicePixelRatioF()), 64);
   if (layer_) options.t = 0.0;
-  painter_.change(composed,
-                  [scene = layer_ ? atRest_ : scene_, whole = scene_, layer = layer_, options](vtkRenderer& renderer) {
-                    render::populate3D(&renderer, *scene, options);
-                    if (!layer) return;
-                    dropFraction(renderer);
-                    if (!*layer) *layer = std::make_unique<LiveLayer>(*whole, options.palette);
-                    (*layer)->setPalette(options.palette);
-                    (*layer)->addTo(&renderer);
-                  });
+  painter_.change(composed, [scene = scene_, layer = layer_, options](vtkRenderer& renderer) {
+    render::populate3D(&renderer, *scene, options);
+    if (!layer) return;
+    dropFraction(renderer);
+    if (!*layer) *layer = std::make_unique<LiveLayer>(*scene, options.palette);
+    (*layer)->setPalette(options.palette);
+    (*layer)->addTo(&renderer);
+  });
   draw(false);
 }
 
@@ -227,15 +239,10 @@ void SceneView::setLive(bool live) {
   if (live == isLive() || !scene_) return;
   drag_ = Drag::None;
   if (live) {
-    auto rest = std::make_shared<render::RetractionScene>(*scene_);
-    rest->vesselSurface = {};
-    rest->retractorPoint_lps_mm.reset();
-    atRest_ = std::move(rest);
     layer_ = std::make_shared<std::unique_ptr<LiveLayer>>();
     toolMoved_mm_.setZero();
   } else {
     painter_.retire(std::exchange(layer_, nullptr));
-    atRest_.reset();
   }
   compose(true);
 }
@@ -264,11 +271,12 @@ const anatomy::TriangleMesh* SceneView::surface() const {
   return scene_ ? &scene_->liverSurface : model_ ? &model_->liver : nullptr;
 }
 
-std::optional<Eigen::Vector3d> SceneView::surfaceUnder(const QPointF& at) const {
+std::optional<Eigen::Vector3d> SceneView::surfaceUnder(const QPointF& at,
+                                                       const std::optional<Eigen::Vector3d>& against) const {
   const anatomy::TriangleMesh* mesh = surface();
   if (!mesh || !cameraKnown_) return {};
   const Eigen::Vector3d eye = camera_.focus_lps - camera_.distance_mm * camera_.fromEye;
-  return tools::firstHit(*mesh, camera_.toLps(asVector(at), size_px(), eye), camera_.fromEye);
+  return tools::firstHit(*mesh, camera_.toLps(asVector(at), size_px(), eye), camera_.fromEye, against);
 }
 
 }  // namespace glisson::views

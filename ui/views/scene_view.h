@@ -43,7 +43,7 @@ class SceneView : public QWidget {
   /// Fraction of the displacement that is shown: 0 at rest, 1 retracted. Keeps the camera.
   void setFraction(double t);
   void setPalette3D(render::Palette palette);
-  void setArrows(bool on);  ///< displacement of both answers
+  void setArrows(bool on);  ///< displacement of both answers, true to scale
   void setView(render::View3D view);
   void setHint(const QString& hint);
   void setParts(const ModelParts& parts);
@@ -95,16 +95,18 @@ class SceneView : public QWidget {
   Eigen::Vector2d size_px() const;
   bool hasPicture() const { return scene_ || model_; }
   const anatomy::TriangleMesh* surface() const;  ///< that marks lie on
-  std::optional<Eigen::Vector3d> surfaceUnder(const QPointF& at) const;
+  std::optional<Eigen::Vector3d> surfaceUnder(const QPointF& at,
+                                              const std::optional<Eigen::Vector3d>& against = std::nullopt) const;
   void compose(bool keepCamera);
   void composeModel();
+  void fitModel();
   void draw(bool hurried);
   void moved();  ///< the camera
   void take(const ScenePainter::Frame& frame);
   void paintModelLegend(QPainter& painter) const;
   void paintAxes(QPainter& painter) const;
 
-  std::shared_ptr<const render::RetractionScene> scene_, atRest_;
+  std::shared_ptr<const render::RetractionScene> scene_;
   std::shared_ptr<const tools::ModelPicture> model_;
   render::SceneOptions3D options_;
   ModelParts parts_;

@@ -80,7 +80,7 @@ void SceneView::mouseMoveEvent(QMouseEvent* event) {
     case Drag::Mark:
       for (const Mark& mark : marks_) {
         if (mark.id != heldMark_) continue;
-        const auto under = mark.onSurface ? surfaceUnder(at) : std::nullopt;
+        const auto under = mark.onSurface ? surfaceUnder(at, mark.against) : std::nullopt;
         if (mark.onSurface && !under) break;  // off the liver it stays where it was
         emit markMoved(heldMark_, under ? *under : camera_.toLps(asVector(at), size_px(), mark.at_lps), false);
         break;
@@ -110,10 +110,7 @@ void SceneView::mouseDoubleClickEvent(QMouseEvent* event) {
     compose(false);
     return;
   }
-  Eigen::AlignedBox3d box;
-  for (Eigen::Index n = 0; n < model_->liver.vertices_lps_mm.cols(); ++n)
-    box.extend(Eigen::Vector3d(model_->liver.vertices_lps_mm.col(n)));
-  camera_.fit(box, size_px());
+  fitModel();
   draw(false);
 }
 

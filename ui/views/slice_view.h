@@ -13,6 +13,7 @@
 #include "tools/measure_tool.h"
 #include "tools/polygon_tool.h"
 #include "tools/slice_plane.h"
+#include "views/marks.h"
 
 namespace glisson::views {
 
@@ -52,6 +53,10 @@ class SliceView : public QWidget {
   /// Border of an inner region, on the grid of the volume; else it is not drawn.
   void setInner(std::shared_ptr<const image::Mask> inner) { inner_ = std::move(inner), update(); }
   void setNote(const QString& note);  ///< a few words under the slice number: a mark of the slice
+  /// Places that lie on the slice shown, or nearly; whoever sets them handles the tool's signals.
+  void setMarks(std::vector<Mark> marks) { marks_ = std::move(marks), update(); }
+  const std::vector<Mark>& marks() const { return marks_; }
+  std::optional<QPointF> seenAt(const Eigen::Vector3d& p_lps) const;
   void setOverlaysHidden(bool hidden) { hidden_ = hidden, update(); }
   /// The left button changes the window instead of going to the tool.
   void setLeftDragWindows(bool on) { leftWindows_ = on; }
@@ -141,6 +146,7 @@ class SliceView : public QWidget {
   const tools::MeasureTool* measurements_ = nullptr;
   const roi::ContourStack* second_ = nullptr;
   std::shared_ptr<const image::Mask> inner_;
+  std::vector<Mark> marks_;
   QString hint_, note_;
 };
 

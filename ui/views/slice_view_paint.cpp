@@ -204,6 +204,14 @@ void SliceView::paintContours(QPainter& painter) const {
   if (tool_) paintOutlineInWork(painter, shown);
 }
 
+std::optional<QPointF> SliceView::seenAt(const Eigen::Vector3d& p_lps) const {
+  if (!hasVolume()) return {};
+  const image::Grid& grid = volume_.values->grid;
+  const double off_mm = std::abs(grid.lpsToIndex(p_lps).z() - slice_) * grid.spacing_mm.z();
+  if (off_mm > std::max(0.75 * grid.spacing_mm.z(), 6.0)) return {};
+  return point(plane().toPixel(p_lps));
+}
+
 // A second reader, the inner region, distances, and the sculpting disc.
 void SliceView::paintExtras(QPainter& painter, const tools::SlicePlane& shown) const {
   if (second_)

@@ -1,0 +1,247 @@
+#include "session/model_preview.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "anatomy/regions.h"
+#include "anatomy/surface.h"
+#include "anatomy/vessels.h"
+#include "base/error.h"
+#include "base/quantity.h"
+#include "image/io.h"
+#include "mechanics/kernel.h"
+#include "mechanics/sites.h"
+#include "pipeline/inputs.h"
+#include "pipeline/models.h"
+#include "retraction/body.h"
+#include "roi/contour_io.h"
+#include "session/session.h"
+
+namespace glisson::session {
+
+namespace {
+
+constexpr int delay_ms = 250;
+constexpr Eigen::Index mostSites = 20000;  // that are shown
+
+image::Mask cellsOf(const retraction::Model& model) {
+  image::Mask cells(model.youngs_kPa.grid);
+  for (std::size_t i = 0; i < cells.values.size(); ++i) cells.values[i] = model.youngs_kPa.values[i] > 0.0F ? 1 : 0;
+  return cells;
+}
+
+/// The modulus of the cell at a point, or of the nearest one within two cells: the surface is smooth and leaves the
+/// cells by a part of one.
+float youngsAt(const image::ScalarVolume& E, const Eigen::Vector3d& p_lps) {
+  const Eigen::Vector3d at = E.grid.lpsToIndex(p_lps);
+  const Eigen::Vector3i c = at.array().round().cast<int>();
+  float value = 0.0F;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int k = -2; k <= 2; ++k)
+    for (int j = -2; j <= 2; ++j)
+      for (int i = -2; i <= 2; ++i) {
+        const Eigen::Vector3i n = c + Eigen::Vector3i(i, j, k);
+        if (!E.grid.contains(n) || !(E.at(n) > 0.0F)) continue;
+        const double d = (n.cast<double>() - at).cwiseProduct(E.grid.spacing_mm).squaredNorm();
+        if (d < nearest) {
+          nearest = d;
+          value = E.at(n);
+        }
+      }
+  return value;
+}
+
+/// Every n-th, so that at most `most` are left.
+Eigen::Matrix3Xd thinned(const std::vector<Eigen::Vector3d>& points, Eigen::Index most) {
+  const auto count = static_cast<Eigen::Index>(points.size());
+  const Eigen::Index step = std::max<Eigen::Index>(1, (count + most - 1) / most);
+  Eigen::Matrix3Xd kept(3, (count + step - 1) / step);
+  for (Eigen::Index n = 0; n < kept.cols(); ++n) kept.col(n) = points[static_cast<std::size_t>(n * step)];
+  return kept;
+}
+
+}  // namespace
+
+/// What does not depend on how the liver is held and lifted.
+struct ModelPreview::Body {
+  std::string key;
+  retraction::Model model;
+  image::Mask cells;
+  std::shared_ptr<const tools::ModelPicture> picture;  ///< without supports and bar
+};
+
+ModelPreview::ModelPreview(Session& session) : QObject(&session), session_(session) {
+  delay_.setSingleShot(true);
+  delay_.setInterval(delay_ms);
+  connect(&delay_, &QTimer::timeout, this, &ModelPreview::start);
+}
+
+ModelPreview::~ModelPreview() = default;
+
+void ModelPreview::want() {
+  if (session_.revision() == made_ && (picture_ || !problem_.isEmpty())) return;
+  if (!worker_.busy()) delay_.start();
+}
+
+namespace {
+
+/// The scene with its images and outlines where they can be read.
+pipeline::Scene readable(const CaseFiles& files, const std::filesystem::path& folder) {
+  pipeline::Scene scene = files.scene;
+  scene.geometry.roles = files.images.roles;
+  scene.geometry.mri = files.images.mriSource;
+  if (scene.geometry.mri.empty()) {
+    scene.geometry.mri = folder / "mri.nrrd";
+    image::writeVolume(scene.geometry.mri, *files.images.mri);
+  }
+  if (files.images.stiffness) scene.geometry.mre = files.images.mreSource;
+  if (scene.material.kind == pipeline::MaterialSpec::Kind::Mre && scene.geometry.mre.empty())
+    scene.material.kind = pipeline::MaterialSpec::Kind::Atlas;
+  roi::writeContours(folder / "contours.json", files.contours);
+  return scene;
+}
+
+std::shared_ptr<const tools::ModelPicture> bodyPicture(const pipeline::Scene& scene, const retraction::Model& model,
+                                                       const image::Mask& cells, const pipeline::Inputs& inputs,
+                                                       const Progress& progress) {
+  auto p = std::make_shared<tools::ModelPicture>();
+  p->liver = anatomy::liverSurface(cells);
+  p->fromMre = scene.material.kind == pipeline::MaterialSpec::Kind::Mre;
+  const auto toShear = [&model](float E) {
+    return static_cast<float>(glisson::toShear(YoungsModulus::fromKPa(static_cast<double>(E)), model.poisson).kPa());
+  };
+  p->shear_kPa.resize(p->liver.vertices_lps_mm.cols());
+  for (Eigen::Index n = 0; n < p->shear_kPa.size(); ++n)
+    p->shear_kPa[n] = toShear(youngsAt(model.youngs_kPa, p->liver.vertices_lps_mm.col(n)));
+  p->least_kPa = std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+  for (const float E : model.youngs_kPa.values) {
+    if (!(E > 0.0F)) continue;
+    const auto shear = static_cast<double>(toShear(E));
+    p->least_kPa = std::min(p->least_kPa, shear);
+    p->most_kPa = std::max(p->most_kPa, shear);
+    sum += shear;
+  }
+  p->mean_kPa = sum / static_cast<double>(model.cells);
+  progress.report(0.4, "sites");
+  const retraction::Body body(model);
+  std::vector<Eigen::Vector3d> sites;
+  p->meshfree = scene.setup.model.kind == retraction::ModelKind::Meshfree;
+  if (p->meshfree) {
+    const mechanics::MeshfreeOptions& m = scene.setup.model.meshfree;
+    mechanics::SiteOptions options;
+    options.count = m.frames;
+    options.iterations = m.lloydIterations;
+    options.seed = m.seed;
+    options.minimumNodes = mechanics::leastNodesOf(m.kernel, m.order);
+    const mechanics::Sites placed = mechanics::placeSites(body.mesh(), options);
+    for (int n = 0; n < placed.count(); ++n) sites.push_back(body.toLps_mm(placed.position_m.col(n)));
+  } else {
+    for (int n = 0; n < body.mesh().nodeCount(); ++n) sites.push_back(body.nodePosition_mm(n));
+  }
+  p->sites = static_cast<long long>(sites.size());
+  p->sites_lps = thinned(sites, mostSites);
+  if (inputs.mri && inputs.liver)
+    p->vessels = anatomy::findVessels(*inputs.mri, *inputs.liver, progress.part(0.5, 1.0)).surface;
+  return p;
+}
+
+/// What holds the liver and where the bar lies on it.
+void place(const pipeline::Scene& scene, const retraction::Model& model, const image::Mask& cells,
+           tools::ModelPicture& picture) {
+  const retraction::Body body(model);
+  for (const retraction::SupportSpec& spec : scene.setup.supports) {
+    tools::ModelPicture::Support s;
+    s.fixed = spec.kind == retraction::SupportSpec::Kind::Fixed;
+    s.name = retraction::Body::name(spec.region);
+    std::vector<Eigen::Vector3d> points;
+    try {
+      for (const int node : body.nodes(spec.region)) points.push_back(body.nodePosition_mm(node));
+    } catch (const BadInput& e) {
+      s.problem = e.what();
+    }
+    s.points_lps = thinned(points, mostSites);
+    picture.supports.push_back(std::move(s));
+  }
+  for (const retraction::LoadSpec& load : scene.setup.loads) {
+    const auto* bar = std::get_if<retraction::Retractor>(&load);
+    if (!bar) continue;
+    tools::BarPlace at;
+    at.direction = bar->direction.normalized();
+    at.axis = (bar->axis - bar->axis.dot(at.direction) * at.direction).normalized();
+    at.diameter_mm = bar->diameter_mm;
+    at.length_mm = bar->length_mm;
+    try {
+      const Eigen::Vector3d wanted =
+          bar->at_mm ? *bar->at_mm : retraction::findHoistPoint(body, *bar, anatomy::inferiorRightLobePoint(cells));
+      at.contact_lps = wanted;
+      picture.bar = at;
+      retraction::findContact(body, *bar, wanted);
+    } catch (const BadInput& e) {
+      picture.barProblem = e.what();
+    }
+  }
+}
+
+/// All of a scene that the body depends on.
+std::string bodyKey(pipeline::Scene scene) {
+  scene.setup.loads.clear();
+  scene.setup.supports.clear();
+  return pipeline::toJson(scene);
+}
+
+}  // namespace
+
+void ModelPreview::start() {
+  if (worker_.busy()) return;
+  const std::uint64_t revision = session_.revision();
+  if (!session_.images().mri || session_.acceptedCount() == 0) {
+    picture_.reset();
+    body_.reset();
+    made_ = revision;
+    problem_ = session_.images().mri ? tr("Outline the liver first (step Segment): the model appears here.")
+                                     : tr("Open a patient first: the model appears here.");
+    emit changed();
+    return;
+  }
+  const std::filesystem::path folder = (session_.runFolder() + QStringLiteral("/preview")).toStdString();
+  struct Made {
+    std::shared_ptr<const Body> body;
+    std::shared_ptr<const tools::ModelPicture> picture;
+  };
+  auto made = std::make_shared<Made>();
+  worker_.start(
+      [made, folder, files = session_.caseFiles(folder), before = body_](const Progress& progress) {
+        std::filesystem::create_directories(folder);
+        const pipeline::Scene scene = readable(files, folder);
+        const std::string key = bodyKey(scene) + roi::toJson(files.contours);
+        made->body = before;
+        if (!before || before->key != key) {
+          auto body = std::make_shared<Body>();
+          body->key = key;
+          const pipeline::Inputs inputs = pipeline::loadInputs(scene, progress.part(0.0, 0.3));
+          body->model = pipeline::buildModels(scene, false, progress.part(0.3, 0.5), &inputs).model;
+          body->cells = cellsOf(body->model);
+          body->picture = bodyPicture(scene, body->model, body->cells, inputs, progress.part(0.5, 1.0));
+          made->body = body;
+        }
+        auto picture = std::make_shared<tools::ModelPicture>(*made->body->picture);
+        place(scene, made->body->model, made->body->cells, *picture);
+        made->picture = picture;
+      },
+      [this, made, revision](std::exception_ptr failure) {
+        made_ = revision;
+        problem_ = reasonOf(failure);
+        if (failure) {
+          picture_.reset();
+        } else {
+          body_ = made->body;
+          picture_ = made->picture;
+        }
+        emit changed();
+        if (session_.revision() != made_) delay_.start();
+      });
+}
+
+}  // namespace glisson::session
