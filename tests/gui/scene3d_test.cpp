@@ -176,7 +176,7 @@ class Scene3D : public QObject {
       QVERIFY2(pixels > 60, name);
       before = now;
     }
-    for (const char* name : {"showSupports", "showBar", "showSites", "showStiffness", "showVessels", "showSurface"})
+    for (const char* name : {"showSurface", "showStiffness", "showVessels", "showSites", "showBar", "showSupports"})
       QTest::mouseClick(find<QPushButton>(name), Qt::LeftButton);
     // Another scale, other colours.
     before = settled(view);
