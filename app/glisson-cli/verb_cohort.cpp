@@ -96,6 +96,8 @@ void addCohort(CLI::App& app, Context& context) {
   auto a = std::make_shared<Arguments>();
   verb->add_option("patients", a->patients, "folder with one folder per patient");
   verb->add_option("--shard", a->shard, "i/n: only every n-th patient, for array jobs; then cohort merge");
+  verb->add_flag("--reports", a->options.reports,
+                 "a report of every patient, as HTML and PDF, with its run record (15 s of processor time each)");
   addShared(verb, a);
 
   CLI::App* merge = verb->add_subcommand("merge", "put the results of shards together and summarise them");

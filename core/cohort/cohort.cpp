@@ -1,6 +1,7 @@
 #include "cohort/cohort.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -52,11 +53,32 @@ fs::path resultOf(const fs::path& output, const std::string& id) {
   return output / "cases" / id / "result.json";
 }
 
+constexpr std::array<const char*, 3> reportFiles = {"report.html", "report.pdf", "run.json"};
+
+fs::path reportOf(const fs::path& output, const std::string& id) {
+  return output / "cases" / id / "report";
+}
+
+/// Takes what is there of a patient's report.
+void keepReport(const fs::path& from, const fs::path& to) {
+  for (const char* name : reportFiles)
+    if (fs::is_regular_file(from / name)) writeWhole(to / name, readWhole(from / name));
+}
+
+std::string withReport(const std::string& scene) {
+  Json j = Json::parse(scene);
+  j["outputs"] = {"vessels", "overlay", "report"};
+  return j.dump(1);
+}
+
 /// What was computed before and still holds. Failures are tried again.
-std::optional<CaseRecord> stillGood(const fs::path& output, const Patient& p) {
+std::optional<CaseRecord> stillGood(const fs::path& output, const Patient& p, bool report) {
   if (!fs::is_regular_file(resultOf(output, p.place.id))) return {};
   std::optional<CaseRecord> r = parseRecord(readWhole(resultOf(output, p.place.id)));
   if (!r || r->key != p.key || r->outcome.status == CaseOutcome::Status::Failed) return {};
+  if (report && r->outcome.status == CaseOutcome::Status::Done)
+    for (const char* name : reportFiles)
+      if (!fs::is_regular_file(reportOf(output, p.place.id) / name)) return {};
   return r;
 }
 
@@ -95,7 +117,7 @@ std::vector<CaseOutcome> runPatients(const std::vector<Patient>& patients, const
   const std::string threads = std::to_string(threadsEach(parallel));
   for (std::size_t i = 0; i < patients.size(); ++i) {
     const Patient& p = patients[i];
-    if (auto r = stillGood(options.output, p)) {
+    if (auto r = stillGood(options.output, p, options.reports)) {
       r->outcome.resumed = true;
       outcomes[p.place.id] = r->outcome;
       continue;
@@ -108,7 +130,7 @@ std::vector<CaseOutcome> runPatients(const std::vector<Patient>& patients, const
       continue;
     }
     const fs::path scene = work.path() / (p.place.id + ".json");
-    writeWhole(scene, p.scene);
+    writeWhole(scene, options.reports ? withReport(p.scene) : p.scene);
     jobs.push_back({p.place.id + " measure",
                     {"measure", "--mre", p.files.mre.string(), "--roi", p.files.roi.string(), "--mri",
                      p.files.mri.string(), "--json", "--quiet", "--threads", threads}});
@@ -133,6 +155,7 @@ std::vector<CaseOutcome> runPatients(const std::vector<Patient>& patients, const
                                 retracted.exitCode == 0 ? retracted.standardOutput : "");
         for (std::string& w : r.warnings) w = detail::anonymous(w, p.place.folder, p.place.id);
         r.outcome = outcomeOf(p.place.id, retracted, p.place.folder);
+        if (options.reports) keepReport(work.path() / p.place.id, reportOf(options.output, p.place.id));
         writeWhole(resultOf(options.output, p.place.id), toJson(r));
         outcomes[p.place.id] = r.outcome;
         spent[p.place.id] = {measured.seconds + retracted.seconds, std::max(measured.peak_MB, retracted.peak_MB)};
@@ -236,6 +259,7 @@ CohortResult mergeCohort(const std::vector<fs::path>& shards, const fs::path& fo
       if (ids.count(r.outcome.id) && readWhole(target) != text)
         throw BadInput("two shards hold different results for " + r.outcome.id + "; run one of them again");
       writeWhole(target, text);
+      keepReport(reportOf(shard, r.outcome.id), reportOf(options.output, r.outcome.id));
       ids.insert(r.outcome.id);
     }
   }

@@ -17,6 +17,7 @@ struct CohortOptions {
   int jobs = 0;                                ///< patients at a time; 0 = as many as cores and memory allow
   int shard = 1, shards = 1;  ///< only patients number n with n ≡ shard (mod shards); no summary where shards > 1
   bool asPublished = false;   ///< histogram of Young's moduli against 2.1 kPa, as the paper draws it
+  bool reports = false;       ///< a report of every patient, beside its numbers: 15 s of processor time each
   bool sensitivity = true;    ///< runs the chosen four again under the assumptions that the paper leaves open
 };
 
@@ -38,6 +39,7 @@ struct CohortResult {
 /// Runs the paper's studies 1 and 2 over a folder that holds one folder per patient: measures each stiffness, retracts
 /// each liver with MRE and with atlas stiffness, and summarises. Writes
 ///   cases/<id>/result.json     numbers of one patient; the same bytes on any machine and in any order
+///   cases/<id>/report/         with reports: report.html, report.pdf, run.json ("replay" takes it)
 ///   timings.csv                time and memory per patient (the one file that differs from run to run)
 ///   cohort.json, patients.csv, rejected.csv, report.html, figures as PNG and SVG   (summarise)
 /// Where it was stopped at any point, another call goes on. Throws BadInput (no patients), Cancelled.

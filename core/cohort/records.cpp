@@ -87,6 +87,7 @@ CaseRecord recordOf(const std::string& id, const std::string& key, const std::st
   const double dofs = numberAt(j, {"model", "dofs"});
   r.dofs = std::isfinite(dofs) ? static_cast<long long>(dofs) : 0;
   r.linear_valid = j.value("linear_valid", false);
+  r.drawable = j.value("drawable", true) && (!j.contains("atlas") || j["atlas"].value("drawable", true));
   for (const Json* source : {&m, &j})
     if (source->contains("warnings"))
       for (const Json& w : (*source)["warnings"])
@@ -107,6 +108,7 @@ std::string toJson(const CaseRecord& record) {
   j["voxels"] = r.voxels;
   j["dofs"] = r.dofs;
   j["linear_valid"] = r.linear_valid;
+  j["drawable"] = r.drawable;
   j["warnings"] = r.warnings;
   return j.dump(1) + "\n";
 }
@@ -126,6 +128,7 @@ std::optional<CaseRecord> parseRecord(const std::string& text) {
   r.voxels = j.value("voxels", 0LL);
   r.dofs = j.value("dofs", 0LL);
   r.linear_valid = j.value("linear_valid", false);
+  r.drawable = j.value("drawable", true);
   r.warnings = j.value("warnings", std::vector<std::string>{});
   return r;
 }

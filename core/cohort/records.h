@@ -23,6 +23,7 @@ struct CaseRecord {
   double volume_mL = 0.0, p95_strain = 0.0, rotation_deg = 0.0;
   long long dofs = 0;
   bool linear_valid = false;
+  bool drawable = true;  ///< both predictions are deformations: converged, no cell inside out
   std::vector<std::string> warnings;
   bool measured() const;  ///< has a stiffness
 };

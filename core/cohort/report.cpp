@@ -146,7 +146,8 @@ std::string summaryJson(const Summary& s) {
                      {"fraction_clinically_significant", b.fractionSignificant}};
   j["chosen"] = Json::array();
   for (const Chosen& c : s.chosen)
-    j["chosen"].push_back({{"what", c.what}, {"case", c.id}, {"at_retractor_mm", c.at_retractor_mm}});
+    j["chosen"].push_back(
+        {{"what", c.what}, {"case", c.id}, {"at_retractor_mm", c.at_retractor_mm}, {"passed_over", c.passedOver}});
   j["sensitivity"] = Json::array();
   for (const SensitivityRow& r : s.sensitivity)
     j["sensitivity"].push_back({{"assumption", r.variation},
@@ -219,7 +220,9 @@ std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& option
     if (!shown) break;
     const auto pictures = s.pictures.find(c.id);
     const auto note = s.pictureNotes.find(c.id);
-    const std::string who = c.what + ", " + c.id + ": " + number(c.at_retractor_mm, 3) + " mm at the retractor. ";
+    const std::string who =
+        c.what + ", " + c.id + ": " + number(c.at_retractor_mm, 3) + " mm at the retractor" +
+        (c.passedOver == 0 ? "" : " (" + std::to_string(c.passedOver) + " nearer to it cannot be drawn)") + ". ";
     if (pictures != s.pictures.end())
       for (const fs::path& p : pictures->second) {
         page.picture(p, who +

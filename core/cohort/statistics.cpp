@@ -84,11 +84,15 @@ std::vector<Chosen> chooseCases(const std::vector<CaseRecord>& records) {
   // The outlier is chosen first, so that no other place takes it away.
   const auto take = [&](const char* what, double wanted_mm) {
     if (left.empty()) return;
-    const auto nearest = std::min_element(left.begin(), left.end(), [&](const CaseRecord* a, const CaseRecord* b) {
-      return std::abs(a->at_retractor_mm - wanted_mm) < std::abs(b->at_retractor_mm - wanted_mm);
+    const auto away = [&](const CaseRecord* r) { return std::abs(r->at_retractor_mm - wanted_mm); };
+    const auto best = std::min_element(left.begin(), left.end(), [&](const CaseRecord* a, const CaseRecord* b) {
+      return a->drawable != b->drawable ? a->drawable : away(a) < away(b);
     });
-    chosen.push_back({what, (*nearest)->outcome.id, (*nearest)->at_retractor_mm});
-    left.erase(nearest);
+    const auto nearer =
+        std::count_if(left.begin(), left.end(), [&](const CaseRecord* r) { return away(r) < away(*best); });
+    chosen.push_back({what, (*best)->outcome.id, (*best)->at_retractor_mm,
+                      static_cast<std::size_t>((*best)->drawable ? nearer : 0)});
+    left.erase(best);
   };
   if (left.size() > 1) take("outlier", s.max);
   take("mean", s.mean);

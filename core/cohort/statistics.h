@@ -38,10 +38,12 @@ RetractionStudy retractionStudy(const std::vector<CaseRecord>& records);
 
 /// One of the four patients that are shown: the one nearest to the mean of the difference at the retractor, to one and
 /// to two standard deviations above it, and the one furthest above; each another patient. Fewer where there are fewer.
+/// Patients whose two predictions can both be drawn come first: a picture is what they are chosen for.
 struct Chosen {
   std::string what;  ///< "mean", "+1 SD", "+2 SD", "outlier"
   std::string id;
   double at_retractor_mm = 0.0;
+  std::size_t passedOver = 0;  ///< patients nearer to what was looked for that cannot be drawn
 };
 std::vector<Chosen> chooseCases(const std::vector<CaseRecord>& records);
 

@@ -48,6 +48,7 @@ Json resultToJson(const retraction::Result& r, const Scene& scene) {
   j["max_rotation_deg"] = r.max_rotation_deg;
   j["max_displacement_mm"] = r.max_displacement_mm;
   j["linear_valid"] = r.linearTrusted;
+  j["drawable"] = r.drawable;
   j["validity"] = r.validity;
   if (r.retractorPoint_mm) {
     j["retractor_point_mm"] = toJson(*r.retractorPoint_mm);

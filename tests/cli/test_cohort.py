@@ -107,6 +107,24 @@ class Cohort(unittest.TestCase):
         message = cli("cohort", "merge", self.folder / "shard1", "--output", merged, code=3).stderr
         self.assertIn("shards are missing", message)
 
+    def test_a_report_of_each_patient_on_request(self):
+        out = self.folder / "with-reports"
+        cli("cohort", self.patients, "--output", out, "--no-sensitivity", "--reports", "--quiet", code=6)
+        for case in ("case-001", "case-003"):
+            report = out / "cases" / case / "report"
+            page = (report / "report.html").read_text()
+            self.assertIn("data:image/png;base64", page)
+            for name in ("Doefeather", "Zoeblossom", str(self.patients)):
+                self.assertNotIn(name, page)
+                self.assertNotIn(name, (report / "run.json").read_text())
+            self.assertEqual((report / "report.pdf").read_bytes()[:5], b"%PDF-")
+        self.assertFalse((out / "cases" / "case-002" / "report").exists())
+        # The numbers are those of a run without reports; the vessels come on top.
+        for case in ("case-001", "case-002", "case-003"):
+            a, b = (json.loads((f / "cases" / case / "result.json").read_text()) for f in (out, self.whole))
+            self.assertEqual({k: v for k, v in a.items() if "vessel" not in k},
+                             {k: v for k, v in b.items() if "vessel" not in k})
+
     def test_refuses_what_is_no_cohort(self):
         empty = self.folder / "empty"
         empty.mkdir()

@@ -67,6 +67,15 @@ TEST(CohortStatistics, ChoosesFourDifferentPatientsByTheData) {
   EXPECT_EQ(c[3].at_retractor_mm, 12.0);
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t k = 0; k < i; ++k) EXPECT_NE(c[i].id, c[k].id);
+  // Who cannot be drawn is passed over, and counted; where nobody can be, the data alone decide.
+  records[9].drawable = false;
+  const std::vector<Chosen> drawn = chooseCases(records);
+  ASSERT_EQ(drawn.size(), 4u);
+  EXPECT_EQ(drawn[3].at_retractor_mm, 5.0);
+  EXPECT_EQ(drawn[3].passedOver, 1u);
+  for (const Chosen& d : drawn) EXPECT_NE(d.id, "case-9");
+  for (CaseRecord& r : records) r.drawable = false;
+  EXPECT_EQ(chooseCases(records)[3].at_retractor_mm, 12.0);
   records.resize(1);
   EXPECT_EQ(chooseCases(records).size(), 1u);
   EXPECT_TRUE(chooseCases({}).empty());
