@@ -4,6 +4,22 @@
     <context>
         <name>glisson::panels::ComparePage</name>
         <message>
+            <source>Displacement arrows</source>
+            <translation>Verschiebungspfeile</translation>
+        </message>
+        <message>
+            <source>From rest to where either answer puts a place, true to scale, in the slice and in 3-D; at most %1 places</source>
+            <translation>Von der Ruhe dorthin, wohin jede der beiden Antworten eine Stelle legt, maßstäblich, in der Schicht und in 3-D; höchstens %1 Stellen</translation>
+        </message>
+        <message>
+            <source>Magnify the difference</source>
+            <translation>Unterschied vergrößern</translation>
+        </message>
+        <message>
+            <source>Beside the slice: where both answers differ most in it, or the vessel that was chosen</source>
+            <translation>Neben der Schicht: wo sich beide Antworten darin am meisten unterscheiden, oder das gewählte Gefäß</translation>
+        </message>
+        <message>
             <source>Run the retraction to compare MRE with the atlas.</source>
             <translation>Retraktion rechnen, um MRE und Atlas zu vergleichen.</translation>
         </message>
