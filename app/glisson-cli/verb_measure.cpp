@@ -6,6 +6,7 @@
 #include "image/io.h"
 #include "image/resample.h"
 #include "pipeline/breath_hold.h"
+#include "pipeline/region_file.h"
 #include "pipeline/sources.h"
 #include "roles_option.h"
 #include "verbs.h"
@@ -19,7 +20,7 @@ struct Arguments {
   std::string quantity, unit, name;
   std::vector<std::string> roles;
   bool overrideChecks = false;
-  int label = 0;
+  std::optional<int> label;
   int erosion_pixels = 0;
   double erosion_mm = 0.0;
   std::optional<double> confidence;
@@ -54,6 +55,17 @@ Json toJson(const elastography::Registration& r) {
           {"similarity_after", r.similarityAfter}};
 }
 
+/// Where nothing can be measured, what is odd about the region's place is the likely reason.
+elastography::Measurement measured(const elastography::StiffnessMap& map, const elastography::MappedRoi& mapped,
+                                   const elastography::MeasureOptions& options) {
+  try {
+    return elastography::measure(map, mapped.mask, options);
+  } catch (const BadInput& e) {
+    if (mapped.warnings.empty()) throw;
+    throw BadInput(std::string(e.what()) + "; " + mapped.warnings.front());
+  }
+}
+
 int measure(const Arguments& a, const Context& context) {
   pipeline::MapMeaning meaning;
   if (!a.quantity.empty())
@@ -62,7 +74,11 @@ int measure(const Arguments& a, const Context& context) {
   meaning.roles = rolesFrom(a.roles);
   const Progress progress = context.progress();
   pipeline::LoadedStiffness mre = pipeline::loadStiffness(a.mre, meaning, progress.part(0.0, 0.6));
-  const pipeline::LoadedRoi roi = pipeline::loadRoi(a.roi, a.name, a.label, progress.part(0.6, 0.8));
+  if (!a.label)
+    if (const std::string labels = pipeline::severalLabels(a.roi); !labels.empty())
+      throw BadInput("'" + a.roi.filename().string() + "' holds the labels " + labels +
+                     ": choose the region's with --label (0 takes all of them together)");
+  const pipeline::LoadedRoi roi = pipeline::loadRoi(a.roi, a.name, a.label.value_or(0), progress.part(0.6, 0.8));
   if (a.registration && a.mri.empty()) throw BadInput("a breath-hold correction needs the image to fit to: give --mri");
   std::optional<image::Grid> mriGrid;
   std::optional<elastography::Registration> registration;
@@ -93,7 +109,7 @@ int measure(const Arguments& a, const Context& context) {
     options.exclude = &*excluded;
   }
   options.poisson = a.poisson;
-  const elastography::Measurement m = elastography::measure(mre.map, mapped.mask, options);
+  const elastography::Measurement m = measured(mre.map, mapped, options);
   progress.report(1.0, "measured");
 
   Json j;
@@ -154,7 +170,7 @@ void addMeasure(CLI::App& app, Context& context) {
   verb->add_option("--role", a->roles, "series=role, set by hand: UID or number, and stiffness, confidence ...");
   verb->add_flag("--override", a->overrideChecks,
                  "take MRI, elastogram and region of other days or patients nevertheless");
-  verb->add_option("--label", a->label, "label of a mask, 0 = any");
+  verb->add_option("--label", a->label, "label of a mask, 0 = any; must be given where there are several");
   verb->add_option("--name", a->name, "structure of an RT Structure Set");
   verb->add_option("--confidence", a->confidence, "voxels below are left out, 0 to 1")->check(CLI::Range(0.0, 1.0));
   verb->add_option("--erode,--erode-px", a->erosion_pixels, "inner region of interest: pixels to take off the border")

@@ -202,8 +202,10 @@ class Walker {
       return items(e.value, end, true, depth, explicitVr && !unknown, big && !unknown);
     }
     if (e.value > end || e.length > end - e.value)
-      throw BadInput("element " + hexTag(e.tag) + at(e.begin) + " announces " + std::to_string(e.length) +
-                     " bytes, beyond the end of " + (depth == 0 ? "the file" : "its sequence item"));
+      throw BadInput("element " + hexTag(e.tag) + at(e.begin) +
+                     (explicitVr && !isKnownVr(e.vr) ? " has an unknown value representation and" : "") +
+                     " announces " + std::to_string(e.length) + " bytes, beyond the end of " +
+                     (depth == 0 ? "the file" : "its sequence item"));
     if (e.length % 2 != 0) warn("element " + hexTag(e.tag) + " has an odd length");
     if (explicitVr && e.is("SQ")) {
       items(e.value, e.value + e.length, false, depth, explicitVr, big);

@@ -52,6 +52,34 @@ std::vector<std::uint8_t> bytesOf(std::span<const Fragment> fragments, const Byt
   return out;
 }
 
+/// A run-length code stream has no size of its own: each segment [PS3.5 annex G] must unpack to one byte of every
+/// pixel, or rows and columns are not what was compressed. One byte of padding is allowed.
+void checkRunLengths(const std::vector<std::uint8_t>& b, std::uint64_t segments, std::uint64_t pixels,
+                     const std::string& where) {
+  const auto offset = [&b](std::uint64_t at) {
+    const auto n = static_cast<std::size_t>(at);
+    return static_cast<std::size_t>(b[n]) | static_cast<std::size_t>(b[n + 1]) << 8 |
+           static_cast<std::size_t>(b[n + 2]) << 16 | static_cast<std::size_t>(b[n + 3]) << 24;
+  };
+  for (std::uint64_t s = 0; s < segments; ++s) {
+    std::size_t at = offset(4 + 4 * s);
+    const std::size_t end = s + 1 < segments ? offset(8 + 4 * s) : b.size();
+    std::uint64_t unpacked = 0;
+    while (at + 1 < end) {
+      const int n = static_cast<std::int8_t>(b[at]);
+      if (n == -128) {
+        ++at;
+        continue;
+      }
+      unpacked += static_cast<std::uint64_t>(n >= 0 ? n + 1 : 1 - n);
+      at += n >= 0 ? static_cast<std::size_t>(n) + 2 : 2;
+    }
+    if (at > end || unpacked < pixels || unpacked > pixels + 1)
+      throw BadInput("has a run-length segment of " + std::to_string(unpacked) + " pixels where its header says " +
+                     std::to_string(pixels) + where);
+  }
+}
+
 std::string sizeText(int width, int height, int components) {
   return std::to_string(width) + " x " + std::to_string(height) + " pixels of " + std::to_string(components) +
          " sample(s)";
@@ -149,6 +177,9 @@ void StoredFrames::checkCodeStreams() const {
         if (begin < last || begin > f.length) throw BadInput("has run-length segments outside of their frame" + where);
         last = begin;
       }
+      if (fragments.size() == pictures)
+        checkRunLengths(source_.bytes(f.offset, f.length), expected,
+                        static_cast<std::uint64_t>(header_.rows) * static_cast<std::uint64_t>(header_.columns), where);
       continue;
     }
     if (isJpeg2000(header_.layout.transferSyntax)) {

@@ -34,11 +34,28 @@ double coverageOf(const image::Mask& mask, const image::Grid& mre) {
   return all == 0 ? 0.0 : static_cast<double>(inside) / static_cast<double>(all);
 }
 
+/// Whether two grids of one size hold the same voxels, perhaps counted from other corners (flipped axes).
+bool sameVoxels(const image::Grid& a, const image::Grid& b) {
+  const Eigen::Vector3d last = (a.size - Eigen::Vector3i::Ones()).cast<double>();
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d index(corner & 1 ? last.x() : 0.0, corner & 2 ? last.y() : 0.0, corner & 4 ? last.z() : 0.0);
+    const Eigen::Vector3d there = b.lpsToIndex(a.indexToLps(index));
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::min(std::abs(there[axis]), std::abs(there[axis] - last[axis])) > 0.05) return false;
+  }
+  return true;
+}
+
 void finish(MappedRoi& result, const image::Grid& mre) {
   if (image::count(result.mask) == 0) {
     std::ostringstream why;
-    why << "the region of interest holds no voxel of the elastogram (the nearest slices are " << result.planeDistance_mm
-        << " mm apart); check that both belong to the same examination";
+    why << "the region of interest holds no voxel of the elastogram: ";
+    if (result.planeDistance_mm > 0.5 * mre.spacing_mm.z())
+      why << "their nearest slices are " << result.planeDistance_mm << " mm apart";
+    else
+      why << "it lies beside it in the same slices";
+    why << "; check that both belong to the same examination";
+    if (!result.warnings.empty()) why << "; " << result.warnings.front();
     throw BadInput(why.str());
   }
   const double half_mm = 0.5 * mre.spacing_mm.z();
@@ -171,6 +188,10 @@ MappedRoi mapRoi(const image::Mask& roi, const image::Grid& mreGrid) {
   mreGrid.check();
   if (image::count(roi) == 0) throw BadInput("the region of interest is empty (no voxel inside)");
   MappedRoi result;
+  if (roi.grid.size == mreGrid.size && !roi.grid.sameGeometry(mreGrid) && !sameVoxels(roi.grid, mreGrid))
+    result.warnings.push_back(
+        "the mask has as many voxels along each axis as the elastogram, but its header puts them elsewhere in the "
+        "patient; if it was drawn on the elastogram, its header has lost the place: save it with the elastogram's");
   result.mask = image::resampleNearest(roi, mreGrid);
   result.coverage = coverageOf(roi, mreGrid);
   // Of a mask with thinner slices than the elastogram, only distances beyond the outer slices say something.

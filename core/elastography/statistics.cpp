@@ -29,6 +29,11 @@ void warn(Measurement& m) {
     few << "only " << m.pooled.n << " of " << before << " voxels count (" << m.lowConfidence
         << " below the confidence, " << m.notPositive << " not positive, " << m.notFinite << " not finite)";
     m.warnings.push_back(few.str());
+  } else if (m.notPositive + m.notFinite > 0) {
+    std::ostringstream some;
+    some << m.notPositive + m.notFinite << " of " << before << " voxels hold no stiffness and do not count ("
+         << m.notPositive << " not positive, " << m.notFinite << " not finite)";
+    m.warnings.push_back(some.str());
   }
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -69,9 +70,24 @@ class NiftiHeader {
   bool big_;
 };
 
-/// ITK falls back silently to the qform where the sform holds shear.
-void refuseShear(const NiftiHeader& header, const std::filesystem::path& file) {
-  if (header.number16(254) <= 0) return;  // no sform
+/// Bytes of a value of a NIfTI datatype; 0 where it is none.
+double bytesOfNiftiType(int type) {
+  static const std::map<int, double> sizes = {{2, 1},     {4, 2},     {8, 4},     {16, 4},  {32, 8},   {64, 8},
+                                              {128, 3},   {256, 1},   {512, 2},   {768, 4}, {1024, 8}, {1280, 8},
+                                              {1536, 16}, {1792, 16}, {2048, 32}, {2304, 4}};
+  const auto known = sizes.find(type);
+  return known == sizes.end() ? 0.0 : known->second;
+}
+
+/// ITK falls back silently to the qform where the sform holds shear, and to no orientation where numbers are missing.
+void refuseBadAxes(const NiftiHeader& header, const std::filesystem::path& file) {
+  if (header.number16(254) <= 0) {  // no sform
+    if (header.number16(252) <= 0) return;
+    for (std::size_t at = 256; at < 280; at += 4)
+      if (!std::isfinite(header.real(at)))
+        throw BadInput(quoted(file) + ": the NIfTI qform is not finite; no voxel position follows from it");
+    return;
+  }
   Eigen::Matrix3d axes;
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column)
@@ -137,13 +153,34 @@ void checkNifti(const std::filesystem::path& file) {
   const bool big = bytes[2] == 0x01 && bytes[3] == 0x5c;
   if (!little && !big) throw BadInput(quoted(file) + " is not a NIfTI-1 file, although its extension says so");
   const NiftiHeader header(bytes, big);
-  refuseShear(header, file);
-  double needed = header.number16(72) / 8.0;
+  // Without the last byte's "n+1" these are Analyze files or header and voxels apart: no orientation, or other voxels.
+  if (std::memcmp(bytes.data() + 344, "n+1", 4) != 0)
+    throw BadInput(quoted(file) +
+                   " is no NIfTI-1 file of one piece (an Analyze file, or a header whose voxels are in another file); "
+                   "save it as .nii or .nii.gz");
+  refuseBadAxes(header, file);
+  double needed = bytesOfNiftiType(header.number16(70));
+  if (needed <= 0.0)
+    throw BadInput(quoted(file) + " has a damaged NIfTI header (datatype " + std::to_string(header.number16(70)) + ")");
   const int dimensions = header.number16(40);
-  if (dimensions < 1 || dimensions > 7 || needed <= 0.0)
+  if (dimensions < 1 || dimensions > 7)
     throw BadInput(quoted(file) + " has a damaged NIfTI header (" + std::to_string(dimensions) + " dimensions)");
-  for (int d = 1; d <= dimensions; ++d) needed *= header.number16(40 + 2 * static_cast<std::size_t>(d));
-  needed += std::max(header.real(108), 0.0);  // voxels begin at vox_offset
+  for (int d = 1; d <= dimensions; ++d) {
+    const int extent = header.number16(40 + 2 * static_cast<std::size_t>(d));
+    if (extent < 1)
+      throw BadInput(quoted(file) + " has a damaged NIfTI header (" + std::to_string(extent) + " voxels along axis " +
+                     std::to_string(d) + ")");
+    needed *= extent;
+  }
+  // Voxels read from another place than they are written to would be shifted and look like an image.
+  const double begin = header.real(108);
+  if (!(begin >= 352.0) || begin != std::floor(begin)) {
+    std::ostringstream why;
+    why << quoted(file) << " has a damaged NIfTI header: its voxels are said to begin at byte " << begin
+        << ", within the header of 352 bytes";
+    throw BadInput(why.str());
+  }
+  needed += begin;
   double there = 348.0;
   std::vector<char> block(blockSize);
   while (there < needed) {
@@ -193,6 +230,26 @@ void checkMetaImage(const std::filesystem::path& file) {
     there = static_cast<double>(data.tellg() - begin);
   }
   if (there < needed) truncated(file, needed, there);
+}
+
+void checkNrrd(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw BadInput(quoted(file) + " cannot be opened");
+  std::string line;
+  for (int n = 0; n < 1000 && std::getline(in, line) && line.size() < 4096; ++n) {
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
+    if (line.empty()) return;  // the voxels follow in this file
+    const std::size_t colon = line.find(':');
+    if (colon == std::string::npos) continue;
+    const std::string field = lower(line.substr(0, colon));
+    if (field != "data file" && field != "datafile") continue;
+    const std::size_t first = line.find_first_not_of(" \t", colon + 1);
+    const std::string name = first == std::string::npos ? std::string() : line.substr(first);
+    std::error_code failed;
+    if (!std::filesystem::is_regular_file(file.parent_path() / name, failed))
+      throw BadInput(quoted(file) + " keeps its voxels in another file, which is not there as one file");
+    return;
+  }
 }
 
 }  // namespace glisson::image

@@ -7,8 +7,11 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <iostream>
 #include <limits>
+#include <mutex>
 #include <set>
 #include <sstream>
 
@@ -39,6 +42,37 @@ Format formatOf(const std::filesystem::path& file) {
   return Format::Unknown;
 }
 
+/// The format libraries write about damaged files to the standard error stream of the process, past any setting of
+/// theirs; the user gets one line, ours. One at a time, because the stream is the whole process's.
+class QuietStderr {
+ public:
+  QuietStderr() : lock_(mutex()) {
+    std::fflush(stderr);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    before_ = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+    if (before_ >= 0) dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+  ~QuietStderr() {
+    if (before_ < 0) return;
+    std::cerr.flush();
+    std::fflush(stderr);
+    dup2(before_, STDERR_FILENO);
+    close(before_);
+  }
+  QuietStderr(const QuietStderr&) = delete;
+  QuietStderr& operator=(const QuietStderr&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  std::lock_guard<std::mutex> lock_;
+  int before_ = -1;
+};
+
 /// A fixed reader for the format; never ITK's factory, which would try GDCM on anything.
 ImageIO::Pointer makeIO(Format format) {
   switch (format) {
@@ -66,7 +100,8 @@ Grid gridOf(const ImageIO& io, const std::filesystem::path& file) {
     std::ostringstream why;
     why << quoted(file) << " has " << dimensions << " dimensions";
     if (dimensions == 4) why << " (" << io.GetDimensions(3) << " time points)";
-    why << "; a 3-D volume is needed, so take one volume out of it first";
+    why << (dimensions < 3 ? "; its place in the patient is unknown: save it as a volume of one slice"
+                           : "; a 3-D volume is needed, so take one volume out of it first");
     throw BadInput(why.str());
   }
   if (io.GetNumberOfComponents() != 1)
@@ -158,7 +193,9 @@ Volume<T> read(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, failed)) throw BadInput(quoted(file) + " is not there, or is no file");
   if (format == Format::Nifti || format == Format::NiftiGz) checkNifti(file);
   if (format == Format::Meta) checkMetaImage(file);
+  if (format == Format::Nrrd) checkNrrd(file);
   try {
+    const QuietStderr quiet;
     const ImageIO::Pointer io = makeIO(format);
     if (!io->CanReadFile(file.c_str()))
       throw BadInput(quoted(file) + " is not what its extension says, or its header is damaged");

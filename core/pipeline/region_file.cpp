@@ -1,5 +1,6 @@
 #include "pipeline/region_file.h"
 
+#include <set>
 #include <sstream>
 
 #include "anatomy/surface_file.h"
@@ -14,9 +15,29 @@ bool isRegionFile(const std::filesystem::path& path) {
   return image::isVolumeFile(path) || anatomy::isSurfaceFile(path);
 }
 
+std::string severalLabels(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path) || !image::isVolumeFile(path)) return {};
+  const image::LabelMap map = image::readLabelMap(path);
+  std::set<std::int32_t> labels(map.values.begin(), map.values.end());
+  labels.erase(0);
+  if (labels.size() < 2) return {};
+  constexpr int most = 20;
+  std::string text;
+  int shown = 0;
+  for (const std::int32_t label : labels) {
+    if (++shown > most) return text + " ... (" + std::to_string(labels.size()) + " in all)";
+    text += (text.empty() ? "" : " ") + std::to_string(label);
+  }
+  return text;
+}
+
 image::Mask readRegion(const std::filesystem::path& path, int label, std::optional<Eigen::Vector3d> cell_mm,
                        std::vector<std::string>& warnings) {
-  if (!anatomy::isSurfaceFile(path)) return image::readMask(path, label);
+  if (!anatomy::isSurfaceFile(path)) {
+    if (const std::string labels = label == 0 ? severalLabels(path) : std::string(); !labels.empty())
+      warnings.push_back("the mask holds the labels " + labels + ": they were taken together, because none was chosen");
+    return image::readMask(path, label);
+  }
   const anatomy::SurfaceFile file = anatomy::readSurface(path);
   const std::string name = "'" + path.filename().string() + "'";
   if (!file.closed)

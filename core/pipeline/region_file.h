@@ -14,6 +14,10 @@ namespace glisson::pipeline {
 /// Whether a file is a mask, a label map, a surface or a volume mesh (image::isVolumeFile, anatomy::isSurfaceFile).
 bool isRegionFile(const std::filesystem::path& path);
 
+/// The labels of a label map that holds more than one, e.g. "3 5 7"; empty for any other file. Throws BadInput where a
+/// volume file cannot be read.
+std::string severalLabels(const std::filesystem::path& path);
+
 /// The voxels of a region. A mask keeps its grid; label picks a value of a label map (0 = any). A closed surface, or
 /// the outside of a volume mesh, is filled on a grid along the patient axes with cells of cell_mm (absent: 256 along
 /// its longest side); coordinates are LPS mm. Appends to warnings what the user should know. Throws BadInput where the

@@ -9,7 +9,7 @@ import zlib
 
 import pydicom
 
-from support import DATA, cli, cli_json, read_nifti, write_scene
+from support import DATA, cli, cli_json, read_nifti, write_nifti, write_scene
 
 
 def png_pixels(path):
@@ -46,6 +46,35 @@ class DicomInputs(unittest.TestCase):
     def measured(self, mre, *more, code=0):
         arguments = ("measure", "--mre", mre, "--roi", self.patient / "rtstruct.dcm", "--mri", self.patient / "mri", *more)
         return cli_json(*arguments) if code == 0 else cli(*arguments, "--quiet", code=code).stderr
+
+    def test_several_labels_are_asked_about(self):
+        size, spacing = (6, 5, 4), (2, 2, 5)
+        values = [1000 + 10 * n for n in range(120)]
+        write_nifti(self.folder / "map.nii", values, size, spacing)
+        labels = [5 if n < 60 else 7 if n < 90 else 0 for n in range(120)]
+        write_nifti(self.folder / "labels.nii", labels, size, spacing, kind="B")
+        call = ("measure", "--mre", self.folder / "map.nii", "--roi", self.folder / "labels.nii", "--quantity", "shear",
+                "--unit", "Pa")
+        question = cli(*call, "--quiet", code=3).stderr
+        self.assertIn("labels 5 7", question)
+        self.assertIn("--label", question)
+        one = cli_json(*call, "--label", 5)
+        self.assertEqual(one["pooled"]["n"], 60)
+        self.assertAlmostEqual(one["pooled"]["mean_kPa"], 1.295, places=6)
+        both = cli_json(*call, "--label", 0)
+        self.assertEqual(both["pooled"]["n"], 90)
+        self.assertTrue(any("labels 5 7" in w for w in both["warnings"]))
+
+    def test_voxels_without_stiffness_are_counted_aloud(self):
+        size, spacing = (6, 5, 4), (2, 2, 5)
+        values = [-1.0 if n < 4 else 0.0 if n < 7 else 2.0 for n in range(120)]
+        write_nifti(self.folder / "map.nii", values, size, spacing)
+        write_nifti(self.folder / "mask.nii", [255] * 120, size, spacing, kind="B")
+        j = cli_json("measure", "--mre", self.folder / "map.nii", "--roi", self.folder / "mask.nii", "--quantity",
+                     "shear", "--unit", "kPa")
+        self.assertEqual((j["pooled"]["n"], j["pooled"]["n_before_mask"]), (113, 120))
+        self.assertAlmostEqual(j["pooled"]["mean_kPa"], 2.0, places=6)
+        self.assertTrue(any("7 of 120 voxels hold no stiffness" in w for w in j["warnings"]))
 
     def test_zip_gives_what_the_folder_gives(self):
         archive = self.folder / "study.zip"

@@ -2,10 +2,10 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "dicom/rtstruct.h"
-#include "elastography/roi_from_structures.h"
 #include "image/io.h"
 #include "roi/contour_io.h"
 #include "roi/polygon.h"
+#include "session/imported_roi.h"
 #include "session/measured_contours.h"
 #include "session/session.h"
 
@@ -190,18 +190,13 @@ void Session::journal() {
 
 void Session::importContours(const QString& file) {
   if (!images_.mri) throw BadInput("open images first; outlines belong to an image series");
-  const std::filesystem::path path = file.toStdString();
-  roi::ContourStack imported;
-  if (path.extension() == ".json") {
-    imported = roi::readContours(path);
-  } else if (image::isVolumeFile(path)) {
-    imported = roi::contoursOf(image::readMask(path));
-  } else {
-    imported = elastography::roiFromStructures(dicom::readRtStruct(path));
-  }
+  const pipeline::LoadedRoi roi = pipeline::loadRoi(file.toStdString(), {}, 0);
+  const QString said = belongs(roi, scan_.series[static_cast<std::size_t>(images_.mriSeries)]);
+  roi::ContourStack imported = roi.contours ? *roi.contours : roi::contoursOf(*roi.mask);
   imported.seriesUid = contours_.seriesUid;
   apply(tool_.state() == tools::ToolState::Drawing && plane_ ? tool_.leaveSlice(*plane_) : tools::Acts{});
   replaceContours(std::move(imported), "import outlines");
+  if (!said.isEmpty()) emit message(said);
 }
 
 }  // namespace glisson::session

@@ -60,13 +60,15 @@ void Session::propose(const Eigen::Vector3d& seed_lps) {
   constexpr double smooth = 0.6;  // of a pixel: steps of voxels become lines
   auto full = std::make_shared<roi::ContourStack>(contours_);
   auto leaked = std::make_shared<bool>(false);
+  auto notes = std::make_shared<QString>();
   const std::uint64_t revision = revision_;
   work_ = Work::Propose;
   worker_.start(
-      [full, leaked, seed_lps, mri = images_.mri,
+      [full, leaked, notes, seed_lps, mri = images_.mri,
        sops = scan_.series[static_cast<std::size_t>(images_.mriSeries)].sopInstanceUids](const Progress& progress) {
         const roi::Proposal proposal = roi::propose(*mri, seed_lps, {}, progress);
         *leaked = proposal.touchesBorder;
+        for (const std::string& note : proposal.notes) *notes += " (" + QString::fromStdString(note) + ")";
         const std::set<int> drawn = coverageOf(*full, mri->grid).drawn;
         std::erase_if(full->polygons, [](const auto& p) { return p.state == roi::PolygonState::Interpolated; });
         for (roi::Polygon& p : roi::contoursOf(proposal.mask).polygons) {
@@ -80,7 +82,7 @@ void Session::propose(const Eigen::Vector3d& seed_lps) {
           full->polygons.push_back(std::move(line));
         }
       },
-      [this, full, leaked, revision](std::exception_ptr failure) {
+      [this, full, leaked, notes, revision](std::exception_ptr failure) {
         ended(Work::Propose, failure);
         if (failure) return;
         if (revision != revision_) {
@@ -88,8 +90,10 @@ void Session::propose(const Eigen::Vector3d& seed_lps) {
           return;
         }
         replaceContours(std::move(*full), "propose outlines");
-        emit message(*leaked ? tr("Proposed, but it reaches the border of the image: it may have leaked. Correct it.")
-                             : tr("Proposed on every slice. Correct and accept; nothing is decided yet."));
+        const QString said =
+            *leaked ? tr("Proposed, but it reaches the border of the image: it may have leaked. Correct it.")
+                    : tr("Proposed on every slice. Correct and accept; nothing is decided yet.");
+        emit message(said + *notes);
       });
   emit workStarted(tr("Proposing outlines"));
   emit statusChanged();

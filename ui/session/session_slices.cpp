@@ -9,6 +9,7 @@
 #include "pipeline/sources.h"
 #include "roi/agreement.h"
 #include "roi/contour_io.h"
+#include "session/imported_roi.h"
 #include "session/session.h"
 
 namespace glisson::session {
@@ -151,10 +152,14 @@ void Session::loadSecondReader(const QString& file) {
     if (!images_.mri) throw BadInput("open images first; outlines belong to an image series");
     const std::filesystem::path path = file.toStdString();
     pipeline::LoadedRoi roi;
-    if (pipeline::isCase(path))
+    if (pipeline::isCase(path)) {
       roi.contours = roi::contoursFromJson(pipeline::readCase(path).contours, "contours.json");
-    else
+      roi.frameOfReferenceUid = roi.contours->frameOfReferenceUid;
+    } else {
       roi = pipeline::loadRoi(path, {}, 0);
+    }
+    const QString said = belongs(roi, scan_.series[static_cast<std::size_t>(images_.mriSeries)]);
+    if (!said.isEmpty()) emit message(said);
     if (!roi.contours) throw BadInput("a second reader's outlines are polygons: a contour file or RT Structure Set");
     second_ = std::move(*roi.contours);
   }

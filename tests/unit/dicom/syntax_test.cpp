@@ -116,6 +116,9 @@ TEST(Syntaxes, codeStreamsOfAnotherSizeAreRefused) {
   const auto taller = [](DcmDataset& data) { data.putAndInsertUint16(DCM_Rows, 65); };
   for (const char* name : {"emri_small_RLE.dcm", "emri_small_jpeg_ls_lossless.dcm", "emri_small_jpeg_2k_lossless.dcm"})
     EXPECT_THROW(readOnly(placed(name, folder / name, taller)), BadInput) << name;
+  const auto shorter = [](DcmDataset& data) { data.putAndInsertUint16(DCM_Rows, 63); };
+  for (const char* name : {"emri_small_RLE.dcm", "emri_small_jpeg_ls_lossless.dcm", "emri_small_jpeg_2k_lossless.dcm"})
+    EXPECT_THROW(readOnly(placed(name, folder / name, shorter)), BadInput) << name;
   const auto eightBits = [](DcmDataset& data) {
     data.putAndInsertUint16(DCM_BitsAllocated, 8);
     data.putAndInsertUint16(DCM_BitsStored, 8);

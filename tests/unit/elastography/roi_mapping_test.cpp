@@ -132,6 +132,37 @@ TEST(MapRoi, MaskOfAnotherGridKeepsItsPlace) {
   EXPECT_EQ(mapRoi(drawn, anatomy).mask.values, drawn.values);
 }
 
+TEST(MapRoi, MaskOfTheSameSizeElsewhereHasPerhapsLostItsPlace) {
+  const image::Grid elastogram = mre(10.0, 3);
+  const image::Mask drawn = roi::rasterise(circles(elastogram, {0, 1, 2}), elastogram);
+  EXPECT_TRUE(mapRoi(drawn, elastogram).warnings.empty());
+
+  image::Mask shifted = drawn;
+  shifted.grid.origin_lps_mm.x() += 4.0 * elastogram.spacing_mm.x();
+  EXPECT_THAT(mapRoi(shifted, elastogram).warnings.at(0), HasSubstr("lost the place"));
+
+  // The same voxels, counted from the other end of each axis.
+  image::Mask flipped(elastogram);
+  const Eigen::Vector3i last = elastogram.size - Eigen::Vector3i::Ones();
+  flipped.grid.origin_lps_mm = elastogram.indexToLps(last.cast<double>());
+  flipped.grid.direction *= -1.0;
+  for (int k = 0; k <= last.z(); ++k)
+    for (int j = 0; j <= last.y(); ++j)
+      for (int i = 0; i <= last.x(); ++i) flipped.at(i, j, k) = drawn.at(last.x() - i, last.y() - j, last.z() - k);
+  const MappedRoi same = mapRoi(flipped, elastogram);
+  EXPECT_TRUE(same.warnings.empty());
+  EXPECT_EQ(same.mask.values, drawn.values);
+
+  image::Mask beside = drawn;
+  beside.grid.origin_lps_mm += 5000.0 * elastogram.direction.col(0);
+  try {
+    mapRoi(beside, elastogram);
+    FAIL() << "a region 5 m away was taken";
+  } catch (const BadInput& e) {
+    EXPECT_THAT(e.what(), HasSubstr("beside it in the same slices"));
+  }
+}
+
 TEST(MapRoi, RefusesWhatDoesNotMeet) {
   const image::Grid anatomy = mri(10.0, 6);
   EXPECT_THROW(mapRoi(circles(anatomy, {0}), anatomy, mre(30.0, 2)), BadInput);

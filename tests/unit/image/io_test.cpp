@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -129,6 +130,52 @@ TEST(ReadVolume, refusesAHeaderThatPromisesMoreThanTheFileHolds) {
   for (const std::size_t at : {42U, 44U}) std::memcpy(bytes.data() + at, &large, 2);  // dim[1], dim[2]
   writeBytes(file, bytes);
   EXPECT_THROW(readVolume(file), BadInput);
+}
+
+TEST(ReadVolume, damagedHeadersGiveOneReasonAndNothingElseIsWritten) {
+  const TemporaryFolder folder;
+  const auto file = folder / "f.nii";
+  writeVolume(file, numberedF());
+  const std::string whole = bytesOf(file);
+  const auto with = [&whole](std::size_t at, auto value) {
+    std::string changed = whole;
+    std::memcpy(changed.data() + at, &value, sizeof(value));
+    return changed;
+  };
+  const auto not_a_number = std::numeric_limits<float>::quiet_NaN();
+  std::string qform = with(254, std::int16_t{0});  // no sform, a qform that is not finite
+  qform[252] = 1;
+  std::memcpy(qform.data() + 256, &not_a_number, sizeof(float));
+  int n = 0;
+  testing::internal::CaptureStderr();
+  for (const std::string& bytes : {with(42, std::int16_t{0}), with(42, std::int16_t{-5}), with(70, std::int16_t{0}),
+                                   with(70, std::int16_t{999}), with(108, 0.0F), with(108, 100.0F), with(108, -352.0F),
+                                   with(108, 352.5F), with(108, not_a_number), with(344, 'x'), with(345, 'i'), qform}) {
+    writeBytes(file, bytes);
+    EXPECT_THROW(readVolume(file), BadInput) << "header " << n;
+    ++n;
+  }
+  writeBytes(folder / "f.mha",
+             "ObjectType = Image\nNDims = 9\nDimSize = 4 4 4\nElementSpacing = x y z\nElementType = MET_FLOAT\n"
+             "ElementDataFile = LOCAL\n" +
+                 std::string(256, '\0'));
+  EXPECT_THROW(readVolume(folder / "f.mha"), BadInput);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(ReadVolume, nrrdHeadersNameOneRegularFileForTheirVoxels) {
+  const TemporaryFolder folder;
+  const auto header = [&folder](const std::string& data) {
+    writeBytes(folder / "f.nhdr",
+               "NRRD0004\ntype: uchar\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 2 2\n"
+               "space directions: (1,0,0) (0,1,0) (0,0,1)\nencoding: raw\ndata file: " +
+                   data + "\n");
+    return folder / "f.nhdr";
+  };
+  EXPECT_THROW(readVolume(header("/dev/zero")), BadInput);
+  EXPECT_THROW(readVolume(header("absent.raw")), BadInput);
+  writeBytes(folder / "f.raw", "12345678");
+  EXPECT_EQ(readVolume(header("f.raw")).values.at(3), 52.0F);
 }
 
 TEST(ReadVolume, refusesSeveralTimePointsAndTakesOne) {
