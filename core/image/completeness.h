@@ -4,13 +4,9 @@
 
 namespace glisson::image {
 
-/// ITK's NIfTI and MetaImage readers fill voxels that a truncated file lacks with zeros and say nothing; so the header
-/// and the number of bytes behind it are checked before they are asked. Throws BadInput, naming the file: not a NIfTI-1
-/// file of one piece, sheared or singular sform, unknown datatype, voxels that begin within the header, fewer bytes
-/// than the header announces, damaged compressed data.
-void checkNifti(const std::filesystem::path& file);
-
-/// The same for a MetaImage (.mha, or .mhd with its data file beside it).
+/// ITK's MetaImage reader fills voxels that a truncated file lacks with zeros and says nothing; so the header and the
+/// number of bytes behind it (of .mha, or of the data file beside an .mhd) are checked before it is asked. Throws
+/// BadInput, naming the file: no readable header, fewer bytes than it announces, damaged compressed data.
 void checkMetaImage(const std::filesystem::path& file);
 
 /// An NRRD header may name any file for its voxels, a device too: BadInput unless that is one regular file.

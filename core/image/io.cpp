@@ -11,12 +11,14 @@
 #include <cstring>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <set>
 #include <sstream>
 
 #include "base/error.h"
 #include "image/completeness.h"
+#include "image/detail/nifti.h"
 
 namespace glisson::image {
 namespace {
@@ -129,13 +131,24 @@ Grid gridOf(const ImageIO& io, const std::filesystem::path& file) {
   return grid;
 }
 
+/// What a file says about its stored values: value = slope · stored + intercept.
+struct Rescale {
+  double slope = 1.0, intercept = 0.0;
+  bool changes() const { return slope != 1.0 || intercept != 0.0; }
+};
+
 template <typename From, typename To>
-void convert(const std::vector<char>& bytes, std::vector<To>& values, const std::filesystem::path& file) {
+void convert(const std::vector<char>& bytes, std::vector<To>& values, const std::filesystem::path& file,
+             const Rescale& rescale) {
   for (std::size_t n = 0; n < values.size(); ++n) {
     From from;
     std::memcpy(&from, bytes.data() + n * sizeof(From), sizeof(From));
     if constexpr (std::is_integral_v<To>) {
-      const auto x = static_cast<double>(from);
+      const double x = rescale.slope * static_cast<double>(from) + rescale.intercept;
+      if (std::isnan(x)) {  // no number, no label
+        values[n] = 0;
+        continue;
+      }
       const double rounded = std::round(x);
       if (!(std::abs(x - rounded) <= 1e-3) || std::abs(rounded) > 2147483647.0) {
         std::ostringstream why;
@@ -145,43 +158,58 @@ void convert(const std::vector<char>& bytes, std::vector<To>& values, const std:
       }
       values[n] = static_cast<To>(rounded);
     } else {
-      values[n] = static_cast<To>(from);
+      values[n] = rescale.changes() ? static_cast<To>(rescale.slope * static_cast<double>(from) + rescale.intercept)
+                                    : static_cast<To>(from);
     }
   }
 }
 
 template <typename To>
 void convertAny(ImageIO::IOComponentEnum type, const std::vector<char>& bytes, std::vector<To>& values,
-                const std::filesystem::path& file) {
+                const std::filesystem::path& file, const Rescale& rescale = {}) {
   using Type = ImageIO::IOComponentEnum;
   switch (type) {
     case Type::UCHAR:
-      return convert<unsigned char>(bytes, values, file);
+      return convert<unsigned char>(bytes, values, file, rescale);
     case Type::CHAR:
-      return convert<signed char>(bytes, values, file);
+      return convert<signed char>(bytes, values, file, rescale);
     case Type::USHORT:
-      return convert<unsigned short>(bytes, values, file);
+      return convert<unsigned short>(bytes, values, file, rescale);
     case Type::SHORT:
-      return convert<short>(bytes, values, file);
+      return convert<short>(bytes, values, file, rescale);
     case Type::UINT:
-      return convert<unsigned int>(bytes, values, file);
+      return convert<unsigned int>(bytes, values, file, rescale);
     case Type::INT:
-      return convert<int>(bytes, values, file);
+      return convert<int>(bytes, values, file, rescale);
     case Type::ULONG:
-      return convert<unsigned long>(bytes, values, file);
+      return convert<unsigned long>(bytes, values, file, rescale);
     case Type::LONG:
-      return convert<long>(bytes, values, file);
+      return convert<long>(bytes, values, file, rescale);
     case Type::ULONGLONG:
-      return convert<unsigned long long>(bytes, values, file);
+      return convert<unsigned long long>(bytes, values, file, rescale);
     case Type::LONGLONG:
-      return convert<long long>(bytes, values, file);
+      return convert<long long>(bytes, values, file, rescale);
     case Type::FLOAT:
-      return convert<float>(bytes, values, file);
+      return convert<float>(bytes, values, file, rescale);
     case Type::DOUBLE:
-      return convert<double>(bytes, values, file);
+      return convert<double>(bytes, values, file, rescale);
     default:
       throw BadInput(quoted(file) + " holds values of a kind that cannot be read (neither whole numbers nor reals)");
   }
+}
+
+template <typename T>
+Volume<T> fromNifti(const std::filesystem::path& file) {
+  using Type = ImageIO::IOComponentEnum;
+  static const std::map<int, Type> types = {
+      {2, Type::UCHAR},  {4, Type::SHORT},    {8, Type::INT},    {16, Type::FLOAT},      {64, Type::DOUBLE},
+      {256, Type::CHAR}, {512, Type::USHORT}, {768, Type::UINT}, {1024, Type::LONGLONG}, {1280, Type::ULONGLONG}};
+  const detail::NiftiFile nifti = detail::readNifti(file, maxVoxelBytes);
+  Volume<T> volume;
+  volume.grid = nifti.grid;
+  volume.values.resize(volume.grid.voxelCount());
+  convertAny(types.at(nifti.datatype), nifti.bytes, volume.values, file, {nifti.slope, nifti.intercept});
+  return volume;
 }
 
 template <typename T>
@@ -191,10 +219,10 @@ Volume<T> read(const std::filesystem::path& file) {
     throw BadInput(quoted(file) + " is no volume file by its extension (.nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd)");
   std::error_code failed;
   if (!std::filesystem::is_regular_file(file, failed)) throw BadInput(quoted(file) + " is not there, or is no file");
-  if (format == Format::Nifti || format == Format::NiftiGz) checkNifti(file);
   if (format == Format::Meta) checkMetaImage(file);
   if (format == Format::Nrrd) checkNrrd(file);
   try {
+    if (format == Format::Nifti || format == Format::NiftiGz) return fromNifti<T>(file);
     const QuietStderr quiet;
     const ImageIO::Pointer io = makeIO(format);
     if (!io->CanReadFile(file.c_str()))

@@ -24,7 +24,7 @@ struct Volume {
 };
 
 using ScalarVolume = Volume<float>;
-using Mask = Volume<std::uint8_t>;       ///< 0 outside, 1 inside
+using Mask = Volume<std::uint8_t>;  ///< 0 outside, 1 inside
 using LabelMap = Volume<std::int32_t>;
 /// Displacement of the material that rests at the voxel centre, LPS components, mm.
 using DisplacementField = Volume<Eigen::Vector3f>;

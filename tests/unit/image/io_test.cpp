@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -161,6 +162,44 @@ TEST(ReadVolume, damagedHeadersGiveOneReasonAndNothingElseIsWritten) {
                  std::string(256, '\0'));
   EXPECT_THROW(readVolume(folder / "f.mha"), BadInput);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(ReadVolume, niftiKeepsPlacesFarFromTheIsocentreAndValuesThatAreNoNumbers) {
+  const TemporaryFolder folder;
+  const auto file = folder / "f.nii.gz";
+  ScalarVolume f = numberedF();
+  f.values[5] = std::numeric_limits<float>::quiet_NaN();
+  for (int n = 0; n < 200; ++n) {
+    f.grid.origin_lps_mm = Eigen::Vector3d(std::sin(n), std::cos(2 * n), std::sin(3 * n)) * 10.0 * n;
+    f.grid.direction = Eigen::AngleAxisd(0.1 * n, Eigen::Vector3d(1, n % 5, 2).normalized()).toRotationMatrix();
+    writeVolume(file, f);
+    const ScalarVolume back = readVolume(file);
+    ASSERT_TRUE(back.grid.sameGeometry(f.grid, 2e-3)) << n;
+    ASSERT_TRUE(std::isnan(back.values[5]));
+    ASSERT_EQ(back.values[6], f.values[6]);
+  }
+}
+
+TEST(ReadVolume, niftiTakesTheSformThenTheQformAndRescalesWhatIsStored) {
+  const TemporaryFolder folder;
+  const auto file = folder / "f.nii";
+  const ScalarVolume f = numberedF();
+  writeVolume(file, f);
+  std::string bytes = bytesOf(file);
+  const auto put = [&bytes](std::size_t at, auto value) { std::memcpy(bytes.data() + at, &value, sizeof(value)); };
+  const auto read = [&] {
+    writeBytes(file, bytes);
+    return readVolume(file);
+  };
+  put(80, 7.0F);  // pixdim says something else than the sform
+  EXPECT_TRUE(read().grid.sameGeometry(f.grid, 1e-3));
+  put(112, 0.5F);
+  put(116, -3.0F);
+  EXPECT_FLOAT_EQ(read().values[9], 0.5F * f.values[9] - 3.0F);
+  bytes = (writeVolume(file, f), bytesOf(file));
+  put(254, std::int16_t{0});  // the qform alone
+  put(252, std::int16_t{1});
+  EXPECT_TRUE(read().grid.sameGeometry(f.grid, 1e-3));
 }
 
 TEST(ReadVolume, nrrdHeadersNameOneRegularFileForTheirVoxels) {
