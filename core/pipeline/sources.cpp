@@ -46,6 +46,25 @@ const dicom::Series& seriesFor(const dicom::ScanResult& scan, dicom::SeriesRole 
   return dicom::findRole(scan, role);
 }
 
+/// What speaks against taking this series as the stiffness, where it was not chosen by hand.
+std::vector<std::string> doubtsAbout(const dicom::ScanResult& scan, const dicom::Series& taken) {
+  const std::string which = "series " + std::to_string(taken.number);
+  if (taken.role != dicom::SeriesRole::Stiffness)
+    return {which + " was taken as the stiffness because it is the only one, but it was recognised as " +
+            dicom::name(taken.role) + " (" + taken.roleReason + "): is it a stiffness map?"};
+  std::string all;
+  int count = 0;
+  for (const dicom::Series& s : scan.series)
+    if (s.role == dicom::SeriesRole::Stiffness) {
+      all +=
+          (count++ == 0 ? "" : ", ") + std::to_string(s.number) + " (" + std::to_string(s.grid.size.z()) + " slices)";
+    }
+  if (count < 2) return {};
+  return {std::to_string(count) + " stiffness series are here: " + all + "; " + which + " with " +
+          std::to_string(taken.grid.size.z()) +
+          " slices was taken: give the folder of another, or its role with --role"};
+}
+
 /// The segment that is asked for: by label number, by name, else the one called liver, else the only one.
 int segmentNumber(const dicom::SegmentationSet& set, const std::string& name, int label) {
   if (label != 0) return label;
@@ -121,6 +140,9 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
   // MR elastography reports the shear modulus unless told otherwise.
   out.map = elastography::makeStiffnessMap(dicom::readSeries(series, progress.part(0.4, 0.8)),
                                            meaning.quantity.value_or(StiffnessQuantity::Shear), *unit);
+  if (std::none_of(meaning.roles.begin(), meaning.roles.end(),
+                   [](const auto& given) { return given.second == dicom::SeriesRole::Stiffness; }))
+    append(out.warnings, doubtsAbout(scan, series));
   if (meaning.unit && series.unit && *meaning.unit != *series.unit)
     out.warnings.push_back("the series says that its stiffness is in " + *series.unit + "; it was taken as " +
                            *meaning.unit + ", as asked for");

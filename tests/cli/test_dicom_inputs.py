@@ -65,6 +65,23 @@ class DicomInputs(unittest.TestCase):
         self.assertEqual(both["pooled"]["n"], 90)
         self.assertTrue(any("labels 5 7" in w for w in both["warnings"]))
 
+    def test_a_series_that_is_not_the_only_or_no_stiffness_is_doubted(self):
+        anatomy = cli_json("measure", "--mre", self.patient / "mri", "--roi", self.patient / "rtstruct.dcm", "--unit", "Pa")
+        self.assertTrue(any("recognised as anatomical" in w for w in anatomy["warnings"]))
+        once = self.measured(self.patient / "mre")
+        self.assertFalse(any("stiffness series are here" in w for w in once["warnings"]))
+        shutil.copytree(self.patient / "mre", self.folder / "both")
+        shutil.copytree(self.patient / "mre" / "stiffness", self.folder / "both" / "again")
+        uid, frames = pydicom.uid.generate_uid(), sorted((self.folder / "both" / "again").iterdir())
+        for file in frames:
+            image = pydicom.dcmread(file)
+            image.SeriesInstanceUID, image.SOPInstanceUID = uid, pydicom.uid.generate_uid()
+            image.SeriesNumber = 1701
+            image.save_as(file)
+        twice = self.measured(self.folder / "both")
+        self.assertTrue(any("2 stiffness series are here" in w and "1701" in w for w in twice["warnings"]))
+        self.assertEqual(twice["pooled"], once["pooled"])
+
     def test_voxels_without_stiffness_are_counted_aloud(self):
         size, spacing = (6, 5, 4), (2, 2, 5)
         values = [-1.0 if n < 4 else 0.0 if n < 7 else 2.0 for n in range(120)]
