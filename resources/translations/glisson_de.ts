@@ -1671,6 +1671,22 @@ Größte Dehnung %7 %, Drehung %8°</translation>
             <translation>Von Hand setzen</translation>
         </message>
         <message>
+            <source>Play and move live</source>
+            <translation>Abspielen und live bewegen</translation>
+        </message>
+        <message>
+            <source>Shows the last run: play it, go through it, take the retractor into your hand</source>
+            <translation>Zeigt die letzte Rechnung: abspielen, durchgehen, den Retraktor in die Hand nehmen</translation>
+        </message>
+        <message>
+            <source>Drag bar, bar ends, hoist and holds; then Run.</source>
+            <translation>Stab, Stabenden, Zug und Halterungen ziehen; dann rechnen.</translation>
+        </message>
+        <message>
+            <source>Changed since the run: Run again to see what it does.</source>
+            <translation>Seit der Rechnung geändert: neu rechnen, um die Wirkung zu sehen.</translation>
+        </message>
+        <message>
             <source>Shows the liver at rest: lay the bar, turn its hoist, hold the liver, in 3-D or on a slice</source>
             <translation>Zeigt die Leber in Ruhe: den Stab legen, seinen Zug drehen, die Leber halten, in 3-D oder auf einer Schicht</translation>
         </message>

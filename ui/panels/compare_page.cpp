@@ -9,8 +9,8 @@
 #include <QTreeWidget>
 
 #include "panels/form.h"
-#include "pipeline/pictures.h"
 #include "panels/method_chart.h"
+#include "pipeline/pictures.h"
 #include "render/maps.h"
 #include "session/session.h"
 #include "views/picture_view.h"
@@ -136,7 +136,8 @@ QWidget* ComparePage::makeSide() {
   arrows_ = new QCheckBox(tr("Displacement arrows"));
   arrows_->setObjectName(QStringLiteral("arrowsChoice"));
   arrows_->setToolTip(tr("From rest to where either answer puts a place, true to scale, in the slice and in 3-D; at "
-                         "most %1 places").arg(render::mostArrows));
+                         "most %1 places")
+                          .arg(render::mostArrows));
   form->addRow(QString(), arrows_);
   magnify_ = new QCheckBox(tr("Magnify the difference"));
   magnify_->setObjectName(QStringLiteral("magnifyChoice"));

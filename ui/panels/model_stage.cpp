@@ -40,6 +40,10 @@ ModelStage::ModelStage(session::Session& session, QWidget* parent)
   stiffness_ = part("showStiffness", tr("Stiffness"), tr("Shear modulus of the cells below the surface, by colour"));
   vessels_ = part("showVessels", tr("Vessels"), tr("Hepatic vessels found in the MRI"));
   sites_ = part("showSites", tr("Sites"), tr("Nodes of the cells, or mesh-free sites: where the model moves"));
+  {
+    const QSignalBlocker quiet(sites_);
+    sites_->setChecked(false);  // thousands of dots hide what lies below them
+  }
   supports_ = part("showSupports", tr("Supports"), tr("What holds the liver: springs and fixed blocks"));
   bar_ = part("showBar", tr("Retractor"), tr("The bar and the direction of its hoist"));
   row->addStretch();
@@ -122,7 +126,10 @@ void ModelStage::show_() {
   const auto shown = static_cast<qlonglong>(model->sites_lps.cols());
   const QString sites = model->meshfree ? tr("%1 mesh-free sites").arg(static_cast<qlonglong>(model->sites))
                                         : tr("%1 nodes of cells").arg(static_cast<qlonglong>(model->sites));
-  words << (shown == model->sites ? sites + tr(", all shown.") : sites + tr(", %1 of them shown.").arg(shown));
+  if (!sites_->isChecked())
+    words << sites + QLatin1Char('.');
+  else
+    words << (shown == model->sites ? sites + tr(", all shown.") : sites + tr(", %1 of them shown.").arg(shown));
   if (model->vessels.triangles.cols() == 0) words << tr("No vessels were found in the MRI.");
   for (const auto& support : model->supports)
     words << (support.problem.empty() ? (support.fixed ? tr("Fixed (orange): %1.") : tr("Springs (turquoise): %1."))

@@ -62,6 +62,7 @@ PlacementEditor::PlacementEditor(session::Session& session, views::SceneView& sc
   connect(&session_.preview(), &session::ModelPreview::changed, this, [this] {
     if (active_) show();
   });
+  connect(&session_, &session::Session::loaded, this, [this] { slicePlaced_ = false; });
   connect(&session_, &session::Session::parametersChanged, this, [this] {
     if (active_ && isVisible()) session_.preview().want(), refresh();
   });
@@ -125,6 +126,8 @@ void PlacementEditor::show() {
     scene_.setModel(nullptr);
   else if (!moving_)
     scene_.setModel(model);
+  // The slice begins where the bar lies.
+  if (const auto b = bar(); b && !std::exchange(slicePlaced_, true)) slice_.showPoint(b->contact_lps);
   refresh();
 }
 
@@ -245,6 +248,7 @@ void PlacementEditor::move(int handle, const Eigen::Vector3d& at, bool ended) {
   if (ended) {
     const session::Placement after = *std::exchange(moving_, std::nullopt);
     session_.place(after, length_mm_, what);
+    if (handle == contact && after.barAt_lps) slice_.showPoint(*after.barAt_lps);
   }
   refresh();
 }

@@ -47,6 +47,7 @@ class PlacementEditor : public QWidget {
   views::SceneView& scene_;
   views::SliceView& slice_;
   bool active_ = false, heldMoved_ = false;
+  bool slicePlaced_ = false;  ///< the slice was brought to the bar of this patient
   int chosen_ = contact;
   int held_ = 0;  ///< by the mouse on the slice
   /// While a drag goes on; else what the session has.

@@ -1,5 +1,6 @@
 #include "panels/retract_page.h"
 
+#include <QButtonGroup>
 #include <QComboBox>
 #include <QSlider>
 #include <QSplitter>
@@ -31,6 +32,7 @@ RetractPage::RetractPage(session::Session& session, QWidget* parent)
   auto* column = new QVBoxLayout(centre);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
+  column->addWidget(makeModes());
   auto* views = new QSplitter;
   views->setHandleWidth(3);
   views->setChildrenCollapsible(false);
@@ -59,7 +61,10 @@ RetractPage::RetractPage(session::Session& session, QWidget* parent)
     showResult();
   });
   connect(&session_, &session::Session::contoursChanged, slice_, qOverload<>(&QWidget::update));
-  connect(&session_, &session::Session::statusChanged, this, [this] { run_->setEnabled(!session_.busy()); });
+  connect(&session_, &session::Session::statusChanged, this, [this] {
+    run_->setEnabled(!session_.busy());
+    showModes();
+  });
   clock_.setInterval(40);
   connect(&clock_, &QTimer::timeout, this, [this] { time_->setValue(time_->value() >= 100 ? 0 : time_->value() + 2); });
   showParameters();
@@ -74,9 +79,9 @@ void RetractPage::showEvent(QShowEvent*) {
 void RetractPage::setPlacing(bool placing) {
   const bool run = session_.picture() != nullptr;
   placing = placing || !run;
-  const QSignalBlocker quiet(place_);
-  place_->setChecked(placing);
-  place_->setEnabled(run);
+  (placing ? place_ : moved_)->setChecked(true);
+  moved_->setEnabled(run);
+  showModes();
   slice_->setVisible(placing);
   if (placing) {
     setPlaying(false);
@@ -87,6 +92,40 @@ void RetractPage::setPlacing(bool placing) {
   placement_->setActive(placing && isVisible());
   placement_->setVisible(placing);
   if (!placing) scene_->setScene(session_.picture());
+}
+
+// Above the views, so that neither the laying nor the moving has to be looked for.
+QWidget* RetractPage::makeModes() {
+  auto* bar = new QWidget;
+  auto* row = new QHBoxLayout(bar);
+  row->setContentsMargins(14, 8, 14, 8);
+  place_ = button("placeButton", tr("Place by hand"), {},
+                  tr("Shows the liver at rest: lay the bar, turn its hoist, hold the liver, in 3-D or on a slice"));
+  moved_ = button("movedButton", tr("Play and move live"), {},
+                  tr("Shows the last run: play it, go through it, take the retractor into your hand"));
+  auto* modes = new QButtonGroup(this);
+  for (QPushButton* mode : {place_, moved_}) {
+    mode->setCheckable(true);
+    modes->addButton(mode);
+    row->addWidget(mode);
+  }
+  modeWords_ = labelled({}, "faint");
+  modeWords_->setObjectName(QStringLiteral("modeWords"));
+  row->addSpacing(8);
+  row->addWidget(modeWords_, 1);
+  connect(place_, &QPushButton::clicked, this, [this] { setPlacing(true); });
+  connect(moved_, &QPushButton::clicked, this, [this] { setPlacing(false); });
+  return bar;
+}
+
+void RetractPage::showModes() {
+  const bool stale = session_.status(session::Step::Retract).state == session::StepState::Stale;
+  if (!session_.picture())
+    modeWords_->setText(tr("Drag bar, bar ends, hoist and holds; then Run."));
+  else if (stale)
+    modeWords_->setText(tr("Changed since the run: Run again to see what it does."));
+  else
+    modeWords_->setText(place_->isChecked() ? tr("Drag bar, bar ends, hoist and holds; then Run.") : QString());
 }
 
 QWidget* RetractPage::makePlayBar() {
@@ -141,11 +180,6 @@ QWidget* RetractPage::makeSide() {
                     tr("Hoisting force, towards anterior in the transverse plane"));
   retractor->addRow(tr("Force"), force_);
   side->addLayout(retractor);
-  place_ = button("placeButton", tr("Place by hand"), {},
-                  tr("Shows the liver at rest: lay the bar, turn its hoist, hold the liver, in 3-D or on a slice"));
-  place_->setCheckable(true);
-  connect(place_, &QPushButton::toggled, this, &RetractPage::setPlacing);
-  side->addWidget(place_);
   side->addWidget(labelled(tr("The same load for MRE and atlas."), "faint"));
   side->addSpacing(8);
   side->addWidget(section(tr("Abdomen")));
@@ -227,7 +261,10 @@ void RetractPage::showResult() {
                         .arg(100.0 * r.max_strain, 0, 'f', 1)
                         .arg(r.max_rotation_deg, 0, 'f', 1));
   QStringList words;
-  for (const std::string& w : r.validity) words << QString::fromStdString(w);
+  for (const std::string& w : r.validity) {
+    words << QString::fromStdString(w);
+    if (!w.empty()) words.back()[0] = words.back()[0].toUpper();
+  }
   validity_->setText(words.isEmpty() ? tr("Linear theory can be trusted here.") : words.join(QLatin1Char('\n')));
 }
 

@@ -41,6 +41,8 @@ class RetractPage : public QWidget {
  private:
   QWidget* makeSide();
   QWidget* makePlayBar();
+  QWidget* makeModes();
+  void showModes();
   void take();
   void showParameters();
   void showResult();
@@ -53,8 +55,8 @@ class RetractPage : public QWidget {
   PlacementEditor* placement_;
   QWidget* playBar_;
   QSlider* time_;
-  QPushButton *play_, *run_, *place_;
-  QLabel *fraction_, *numbers_, *validity_;
+  QPushButton *play_, *run_, *place_, *moved_;
+  QLabel *fraction_, *numbers_, *validity_, *modeWords_;
   QDoubleSpinBox *diameter_, *length_, *spread_, *force_, *abdomen_;
   QComboBox* forceKind_;
   QTimer clock_;

@@ -173,6 +173,7 @@ void Session::openSynthetic(std::uint64_t seed, const QString& folder) {
         if (!std::filesystem::exists(target / "truth.json")) {
           progress.report(0.0, "making a synthetic patient");
           phantom::PhantomOptions options;
+          options.shear_kPa = 5.8;  // far from the atlas: there is something to compare
           phantom::writePhantom(phantom::makePhantom(seed, options, progress.part(0.0, 0.9)), target);
         }
         Wanted wanted;

@@ -34,7 +34,9 @@ void paintMarks(QPainter& painter, const std::vector<Mark>& marks, const Project
     if (!at) continue;
     const auto from = mark.from_lps ? seenAt(*mark.from_lps) : std::nullopt;
     if (from) paintLine(painter, mark, *from, *at);
-    const double r = mark.current ? 7.5 : 5.5;
+    // Rings come in dozens along one vessel: small and thin, or they hide it.
+    const bool slight = mark.shape == Mark::Shape::Ring && !mark.current;
+    const double r = mark.current ? 7.5 : slight ? 4.0 : 5.5;
     QPainterPath shape;
     switch (mark.shape) {
       case Mark::Shape::Dot:
@@ -49,11 +51,13 @@ void paintMarks(QPainter& painter, const std::vector<Mark>& marks, const Project
                                     *at + QPointF(-1.3 * r, 0), *at + QPointF(0, -1.3 * r)}));
         break;
     }
-    painter.setPen(QPen(QColor(0, 0, 0, 200), 4.0));
+    painter.setPen(slight ? QPen(QColor(0, 0, 0, 90), 2.6) : QPen(QColor(0, 0, 0, 200), 4.0));
     painter.setBrush(Qt::NoBrush);
     painter.drawPath(shape);
-    painter.setPen(QPen(mark.current || mark.shape != Mark::Shape::Ring ? QColor(255, 255, 255) : mark.colour,
-                        mark.current ? 2.4 : 1.6));
+    painter.setPen(
+        QPen(mark.current || mark.shape != Mark::Shape::Ring ? QColor(255, 255, 255) : mark.colour, mark.current ? 2.4
+                                                                                                    : slight     ? 1.2
+                                                                                                             : 1.6));
     painter.setBrush(mark.shape == Mark::Shape::Ring ? QBrush(Qt::NoBrush) : QBrush(mark.colour));
     painter.drawPath(shape);
     if (mark.text.isEmpty()) continue;

@@ -21,7 +21,7 @@ class ModelLayer;
 
 /// What a view of a model shows.
 struct ModelParts {
-  bool surface = true, vessels = true, stiffness = true, sites = true, supports = true, bar = true;
+  bool surface = true, vessels = true, stiffness = true, sites = false, supports = true, bar = true;
   double most_kPa = 8.0;  ///< end of the colour scale
   bool operator==(const ModelParts&) const = default;
 };
