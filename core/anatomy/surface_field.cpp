@@ -14,15 +14,7 @@ namespace {
 
 /// The mask's bounding box with a margin of empty voxels on every side.
 image::Mask cropped(const image::Mask& mask, int margin) {
-  Eigen::Vector3i low = mask.grid.size, high = -Eigen::Vector3i::Ones();
-  std::size_t at = 0;
-  for (int k = 0; k < mask.grid.size.z(); ++k)
-    for (int j = 0; j < mask.grid.size.y(); ++j)
-      for (int i = 0; i < mask.grid.size.x(); ++i, ++at)
-        if (mask.values[at] != 0) {
-          low = low.cwiseMin(Eigen::Vector3i(i, j, k));
-          high = high.cwiseMax(Eigen::Vector3i(i, j, k));
-        }
+  const auto [low, high] = image::extentOf(mask).value();
   image::Grid grid = mask.grid;
   grid.size = high - low + Eigen::Vector3i::Constant(1 + 2 * margin);
   const Eigen::Vector3i first = low - Eigen::Vector3i::Constant(margin);

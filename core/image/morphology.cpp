@@ -24,6 +24,19 @@ std::size_t count(const Mask& mask) {
       std::count_if(mask.values.begin(), mask.values.end(), [](std::uint8_t v) { return v != 0; }));
 }
 
+std::optional<Extent> extentOf(const Mask& mask) {
+  Eigen::Vector3i low = mask.grid.size, high = Eigen::Vector3i::Constant(-1);
+  for (int k = 0; k < mask.grid.size.z(); ++k)
+    for (int j = 0; j < mask.grid.size.y(); ++j)
+      for (int i = 0; i < mask.grid.size.x(); ++i)
+        if (mask.at(i, j, k) != 0) {
+          low = low.cwiseMin(Eigen::Vector3i(i, j, k));
+          high = high.cwiseMax(Eigen::Vector3i(i, j, k));
+        }
+  if (high.x() < 0) return {};
+  return Extent{low, high};
+}
+
 Mask erodeInPlane(const Mask& mask, int pixels) {
   if (pixels < 0)
     throw BadArgument("an erosion by " + std::to_string(pixels) + " pixels was asked for; it must be at least 0");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "image/volume.h"
 
 namespace glisson::image {
@@ -18,5 +20,11 @@ Mask dilate(const Mask& mask, double radius_mm);
 
 /// Number of voxels inside.
 std::size_t count(const Mask& mask);
+
+/// Smallest and largest index inside along each axis; nothing for an empty mask.
+struct Extent {
+  Eigen::Vector3i low, high;
+};
+std::optional<Extent> extentOf(const Mask& mask);
 
 }  // namespace glisson::image

@@ -95,14 +95,7 @@ double volume_mL(const image::Mask& mask) {
 }
 
 std::pair<Eigen::Vector3i, image::Grid> boxAround(const image::Mask& mask, double margin_mm) {
-  Eigen::Vector3i low = mask.grid.size, high = Eigen::Vector3i::Constant(-1);
-  for (int k = 0; k < mask.grid.size.z(); ++k)
-    for (int j = 0; j < mask.grid.size.y(); ++j)
-      for (int i = 0; i < mask.grid.size.x(); ++i)
-        if (mask.at(i, j, k) != 0) {
-          low = low.cwiseMin(Eigen::Vector3i(i, j, k));
-          high = high.cwiseMax(Eigen::Vector3i(i, j, k));
-        }
+  auto [low, high] = image::extentOf(mask).value();
   const Eigen::Vector3i by = (margin_mm / mask.grid.spacing_mm.array()).ceil().cast<int>();
   low = (low - by).cwiseMax(0);
   high = (high + by).cwiseMin(mask.grid.size - Eigen::Vector3i::Ones());
