@@ -126,12 +126,12 @@
 %4</translation>
         </message>
         <message>
-            <source>At or above the 5 mm that matter clinically.</source>
-            <translation>Mindestens die klinisch bedeutsamen 5 mm.</translation>
+            <source>At the retractor not below the 5 mm that matter clinically.</source>
+            <translation>Am Retraktor nicht unter den 5 mm, die klinisch zählen.</translation>
         </message>
         <message>
-            <source>Below the 5 mm that matter clinically.</source>
-            <translation>Unter den klinisch bedeutsamen 5 mm.</translation>
+            <source>At the retractor below the 5 mm that matter clinically.</source>
+            <translation>Am Retraktor unter den 5 mm, die klinisch zählen.</translation>
         </message>
         <message>
             <source>No vessel landmarks were found.</source>

@@ -4,15 +4,21 @@
 #include <QDoubleSpinBox>
 #include <QProcess>
 #include <QPushButton>
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "panels/placement_editor.h"
+#include "session/model_preview.h"
 #include "session/session.h"
+#include "views/scene_view.h"
 #include "window_bench.h"
 
+using glisson::panels::PlacementEditor;
 using glisson::session::Step;
 using glisson::test::wait_ms;
+using glisson::views::SceneView;
 using Json = nlohmann::json;
 
 class CommandLine : public QObject, private glisson::test::WindowBench {
@@ -122,6 +128,24 @@ class CommandLine : public QObject, private glisson::test::WindowBench {
     QCOMPARE(a.error.trimmed().count('\n'), 0);
     QVERIFY2(a.error.contains("contours.json") && a.error.contains("versions/"), qPrintable(a.error));
     QVERIFY(!std::filesystem::exists(folder() / "nothing" / "run.json"));
+  }
+
+  void soDoesABarLaidByHand() {
+    window().showStep(Step::Retract);
+    auto* view = find<SceneView>("retractView");
+    click("placeButton");
+    QTRY_VERIFY_WITH_TIMEOUT(view->hasModel() && !session().preview().busy(), wait_ms);
+    const auto contact = std::ranges::find(view->marks(), PlacementEditor::contact, &glisson::views::Mark::id);
+    QVERIFY(contact != view->marks().end());
+    const QPoint from = view->pixelOf(contact->at_lps).toPoint();
+    glisson::test::drag(view, from, from + QPoint(14, -12));
+    QVERIFY(session().parameters().placement.barAt_lps.has_value());
+    runHere();
+    const Answer a = cli({"run", path("case/case.json"), "--output", path("laid"), "--json", "--quiet"});
+    QVERIFY2(a.code == 0, qPrintable(a.error));
+    expectSame(read(folder() / "work" / "results" / "run.json"), read(folder() / "laid" / "run.json"));
+    QVERIFY(read(folder() / "laid" / "run.json").at("results_sha256") !=
+            read(folder() / "again" / "run.json").at("results_sha256"));
   }
 
   void soDoMethodsThatNeedMoreThanVoxels() {

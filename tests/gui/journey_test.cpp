@@ -157,6 +157,9 @@ class Journey : public QObject, private glisson::test::WindowBench {
     QSignalSpy drawn(compare, &glisson::panels::ComparePage::overlayShown);
     QSignalSpy ended(&session(), &Session::workEnded);
     window().showStep(Step::Retract);
+    // Before a run the bar can be laid at once, and there is nothing to play.
+    QVERIFY(find<QWidget>("addHold")->isVisible() && find<QWidget>("automaticBar")->isVisible());
+    QVERIFY(!find<QWidget>("playButton")->isVisible() && !find<QWidget>("movedButton")->isEnabled());
     StallMonitor stalls;
     click("runButton");
     QVERIFY(ended.wait(wait_ms));
@@ -191,6 +194,17 @@ class Journey : public QObject, private glisson::test::WindowBench {
     QSignalSpy rendered(view, &glisson::views::SceneView::rendered);
     window().showStep(Step::Retract);
     QVERIFY(rendered.wait(wait_ms));
+    // After a run it can be played and moved at once; laying is one click away, and back.
+    const auto shows = [this](bool moving) {
+      for (const char* name : {"playButton", "timeSlider", "liveButton"})
+        if (find<QWidget>(name)->isVisible() != moving) return false;
+      return find<QWidget>("addHold")->isVisible() != moving;
+    };
+    QVERIFY(shows(true));
+    click("placeButton");
+    QVERIFY(shows(false));
+    click("movedButton");
+    QVERIFY(shows(true));
     click("liveButton");
     QVERIFY(live->isLive() && view->isLive());
     // Under the force of the run the live livers lie where the run put them.

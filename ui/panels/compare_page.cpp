@@ -264,8 +264,9 @@ void ComparePage::showNumbers() {
   retractor_->setText(mm(d.at_retractor_mm));
   numbers_->setText(tr("mean %1, 95th percentile %2, largest %3\n%4")
                         .arg(mm(d.mean_mm), mm(d.p95_mm), mm(d.max_mm),
-                             d.clinically_significant ? tr("At or above the 5 mm that matter clinically.")
-                                                      : tr("Below the 5 mm that matter clinically.")));
+                             d.clinically_significant
+                                 ? tr("At the retractor not below the 5 mm that matter clinically.")
+                                 : tr("At the retractor below the 5 mm that matter clinically.")));
   vessels_->setText(d.vessel_mm.empty()
                         ? tr("No vessel landmarks were found.")
                         : tr("%1 landmarks: mean %2, 95th percentile %3, largest %4; %5\u00a0% at 5\u00a0mm or more")
