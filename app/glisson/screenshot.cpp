@@ -14,6 +14,7 @@
 #include "panels/main_window.h"
 #include "panels/segment_page.h"
 #include "session/model_preview.h"
+#include "views/scene_view.h"
 #include "views/slice_view.h"
 
 namespace glisson {
@@ -83,7 +84,9 @@ void Screenshot::settle() {
 }
 
 void Screenshot::take() {
-  if (window_.session().preview().busy()) {  // the model is still being made
+  const auto scenes = window_.findChildren<views::SceneView*>();
+  // The model is still being made, or a picture of it.
+  if (window_.session().preview().busy() || !std::ranges::all_of(scenes, &views::SceneView::isSettled)) {
     QTimer::singleShot(settle_ms, this, &Screenshot::take);
     return;
   }

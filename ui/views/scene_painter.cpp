@@ -78,6 +78,7 @@ class Canvas {
     }
     frame.camera = cameraOf(*renderer_);
     frame.hurried = wish.hurried;
+    frame.number = wish.number;
     frame.seconds = 1e-9 * static_cast<double>(clock.nsecsElapsed());
     // The first frame compiles shaders: what the following ones take is learnt from them.
     const double full_s = frame.seconds / (scale * scale);
@@ -118,6 +119,11 @@ void ScenePainter::paint(const Wish& wish) {
     wish_ = wish;
   }
   wake_.notify_one();
+}
+
+void ScenePainter::forget() {
+  const std::scoped_lock lock(mutex_);
+  wish_.reset();
 }
 
 void ScenePainter::work(const std::stop_token& stop) {

@@ -3,6 +3,7 @@
 #include <QImage>
 #include <QObject>
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -29,12 +30,14 @@ class ScenePainter : public QObject {
     std::optional<tools::SceneCamera> camera;  ///< empty: as the scene set it up
     int width = 0, height = 0;                 ///< device pixels
     bool hurried = false;                      ///< something moves: coarser where a frame would take too long
+    std::uint64_t number = 0;                  ///< comes back with the picture
   };
   struct Frame {
     QImage image;  ///< of the wish's size where it was not hurried, else perhaps smaller
     tools::SceneCamera camera;
     bool hurried = false;
     double seconds = 0.0;
+    std::uint64_t number = 0;  ///< of the wish
   };
 
   explicit ScenePainter(QObject* parent = nullptr);
@@ -46,6 +49,8 @@ class ScenePainter : public QObject {
   void retire(std::shared_ptr<void> made);
   /// Only the latest wish counts.
   void paint(const Wish& wish);
+  /// A wish that still waits is not fulfilled any more.
+  void forget();
 
  signals:
   void painted(const glisson::views::ScenePainter::Frame& frame);

@@ -51,6 +51,7 @@ SceneView::SceneView(QWidget* parent) : QWidget(parent) {
   connect(&painter_, &ScenePainter::failed, this, [this](const QString& reason) {
     hint_ = reason;
     image_ = {};
+    drawn_ = wished_;
     update();
   });
 }
@@ -68,6 +69,7 @@ void SceneView::setCaption(const QString& caption) {
 }
 
 void SceneView::setScene(std::shared_ptr<const render::RetractionScene> scene) {
+  startAnew();
   scene_ = std::move(scene);
   model_.reset();
   painter_.retire(std::exchange(layer_, nullptr));
@@ -80,6 +82,7 @@ void SceneView::setScene(std::shared_ptr<const render::RetractionScene> scene) {
 
 void SceneView::setModel(std::shared_ptr<const tools::ModelPicture> model) {
   const bool again = model_ && model;
+  if (!again) startAnew();
   scene_.reset();
   painter_.retire(std::exchange(layer_, nullptr));
   model_ = std::move(model);
@@ -170,9 +173,20 @@ void SceneView::resizeEvent(QResizeEvent*) {
   draw(false);
 }
 
+// Pictures that are still in the making show what was there before, from where it was seen.
+void SceneView::startAnew() {
+  painter_.forget();
+  since_ = wished_;
+  cameraKnown_ = false;
+}
+
+bool SceneView::isSettled() const {
+  return !hasPicture() || !isVisible() || (drawn_ == wished_ && !settle_.isActive());
+}
+
 void SceneView::compose(bool keepCamera) {
   if (!scene_) return;
-  if (!keepCamera) cameraKnown_ = false;
+  if (!keepCamera) startAnew();
   auto options = options_;
   options.width = std::max(qRound(width() * devicePixelRatioF()), 64);
   options.height = std::max(qRound(height() * devicePixelRatioF()), 64);
@@ -218,6 +232,7 @@ void SceneView::draw(bool hurried) {
   wish.width = std::max(qRound(width() * devicePixelRatioF()), 64);
   wish.height = std::max(qRound(height() * devicePixelRatioF()), 64);
   wish.hurried = hurried;
+  wish.number = ++wished_;
   painter_.paint(wish);
   hurried ? settle_.start() : settle_.stop();
 }
@@ -227,7 +242,8 @@ void SceneView::moved() {
 }
 
 void SceneView::take(const ScenePainter::Frame& frame) {
-  if (!hasPicture()) return;
+  drawn_ = frame.number;
+  if (!hasPicture() || frame.number <= since_) return;
   image_ = frame.image;
   shownCamera_ = frame.camera;
   if (!std::exchange(cameraKnown_, true)) camera_ = frame.camera;

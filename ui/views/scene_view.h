@@ -39,6 +39,8 @@ class SceneView : public QWidget {
   void setModel(std::shared_ptr<const tools::ModelPicture> model);  ///< keeps the camera while models follow each other
   void clear();
   bool hasScene() const { return scene_ != nullptr; }
+  /// Whether the picture shows all that was asked for.
+  bool isSettled() const;
   bool hasModel() const { return model_ != nullptr; }
   /// Fraction of the displacement that is shown: 0 at rest, 1 retracted. Keeps the camera.
   void setFraction(double t);
@@ -97,6 +99,7 @@ class SceneView : public QWidget {
   const anatomy::TriangleMesh* surface() const;  ///< that marks lie on
   std::optional<Eigen::Vector3d> surfaceUnder(const QPointF& at,
                                               const std::optional<Eigen::Vector3d>& against = std::nullopt) const;
+  void startAnew();
   void compose(bool keepCamera);
   void composeModel();
   void fitModel();
@@ -116,10 +119,12 @@ class SceneView : public QWidget {
   std::shared_ptr<std::unique_ptr<LiveLayer>> layer_;        ///< null while not live; the painter's thread looks inside
   std::shared_ptr<std::unique_ptr<ModelLayer>> modelLayer_;  ///< likewise
   QImage image_;
-  tools::SceneCamera camera_;       ///< wanted
-  tools::SceneCamera shownCamera_;  ///< of the picture on screen
-  bool cameraKnown_ = false;        ///< else the painter's own is taken with the next frame
-  QTimer settle_;                   ///< a fine picture once nothing moves
+  tools::SceneCamera camera_;             ///< wanted
+  tools::SceneCamera shownCamera_;        ///< of the picture on screen
+  std::uint64_t wished_ = 0, drawn_ = 0;  ///< numbers of pictures
+  std::uint64_t since_ = 0;               ///< later pictures show what is shown now
+  bool cameraKnown_ = false;              ///< else the painter's own is taken with the next frame
+  QTimer settle_;                         ///< a fine picture once nothing moves
   Drag drag_ = Drag::None;
   QPointF pressed_, last_;
   bool dragged_ = false;
