@@ -254,6 +254,12 @@ class Scene3D : public QObject {
     slice->showPoint(contact);
     const auto seen = slice->seenAt(contact);
     QVERIFY(seen.has_value());
+    // The handles are seen there.
+    const auto handles = slice->marks();
+    const QImage with = slice->grab().toImage();
+    slice->setMarks({});
+    QVERIFY(changed(with, slice->grab().toImage()) > 60);
+    slice->setMarks(handles);
     drag(slice, seen->toPoint(), seen->toPoint() + QPoint(10, 0));
     QVERIFY(session().parameters().placement.barAt_lps.has_value());
     const Eigen::Vector3d there = *session().parameters().placement.barAt_lps;

@@ -366,6 +366,7 @@ void SliceView::paintEvent(QPaintEvent*) {
   renderBackdrop();
   painter.drawImage(QPointF(0.0, 0.0), backdrop_);
   paintContours(painter);
+  paintMarks(painter, marks_, [this](const Eigen::Vector3d& p) { return seenAt(p); });
   paintCursor(painter);
   paintColourBar(painter);
   paintScaleBar(painter);
