@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -47,11 +48,17 @@ double at(const Json& j, const char* key) {
 std::string anonymous(std::string message, const fs::path& folder, const std::string& id) {
   const std::string program = "glisson-cli: ";
   if (message.rfind(program, 0) == 0) message.erase(0, program.size());
-  for (const std::string& part : {folder.string() + "/", folder.string(), folder.filename().string()})
+  // A folder may be called "1": its name is replaced where it stands as a word, not inside other words and numbers.
+  const auto within = [&](std::size_t at) {
+    return at < message.size() && std::isalnum(static_cast<unsigned char>(message[at]));
+  };
+  const std::string whole = folder.string() + "/";
+  for (const auto& [part, instead] : std::vector<std::pair<std::string, std::string>>{
+           {whole + "'", id + "'"}, {whole, ""}, {folder.string(), id}, {folder.filename().string(), id}})
     for (std::size_t p = message.find(part); !part.empty() && p != std::string::npos; p = message.find(part, p)) {
-      const std::string instead = part.back() == '/' ? "" : id;
-      message.replace(p, part.size(), instead);
-      p += instead.size();
+      const bool word = part.front() == '/' || !((p > 0 && within(p - 1)) || within(p + part.size()));
+      if (word) message.replace(p, part.size(), instead);
+      p += word ? instead.size() : part.size();
     }
   return message;
 }

@@ -11,6 +11,7 @@
 #include "base/version.h"
 #include "cohort/detail/summary.h"
 #include "cohort/processes.h"
+#include "dicom/series.h"
 #include "report/text.h"
 
 namespace glisson::cohort {
@@ -30,14 +31,20 @@ struct Patient {
 Patient prepare(const PatientFolder& place, const std::optional<std::string>& sceneTemplate) {
   Patient p;
   p.place = place;
+  std::string all;
   try {
+    all = digestOfFolder(place.folder);
     p.files = findFiles(place.folder);
     p.scene = sceneOf(place.folder, sceneTemplate);
+    if (!fs::is_regular_file(place.folder / "scene.json") && dicom::scan(place.folder).series.empty())
+      throw BadInput(
+          "no DICOM image was found; images in other formats need a scene.json in the patient's folder that names the "
+          "mri, the roi and, as material, the map of stiffness with its quantity and unit");
   } catch (const BadInput& e) {
+    p.scene.clear();
     p.refused = detail::anonymous(e.what(), place.folder, place.id);
   }
-  const std::string all = digestOfFolder(place.folder) + (p.scene.empty() ? "" : withoutPaths(p.scene)) +
-                          (sceneTemplate ? *sceneTemplate : "") + version();
+  all += (p.scene.empty() ? "" : withoutPaths(p.scene)) + (sceneTemplate ? *sceneTemplate : "") + version();
   p.key = sha256(all.data(), all.size());
   return p;
 }
@@ -131,9 +138,11 @@ std::vector<CaseOutcome> runPatients(const std::vector<Patient>& patients, const
     }
     const fs::path scene = work.path() / (p.place.id + ".json");
     writeWhole(scene, options.reports ? withReport(p.scene) : p.scene);
-    jobs.push_back({p.place.id + " measure",
-                    {"measure", "--mre", p.files.mre.string(), "--roi", p.files.roi.string(), "--mri",
-                     p.files.mri.string(), "--json", "--quiet", "--threads", threads}});
+    Job measure{p.place.id + " measure",
+                {"measure", "--mre", p.files.mre.string(), "--roi", p.files.roi.string(), "--mri", p.files.mri.string(),
+                 "--json", "--quiet", "--threads", threads}};
+    measure.arguments.insert(measure.arguments.end(), p.files.meaning.begin(), p.files.meaning.end());
+    jobs.push_back(std::move(measure));
     jobs.push_back({p.place.id,
                     {"run", scene.string(), "--output", (work.path() / p.place.id).string(), "--json", "--quiet",
                      "--threads", threads}});
@@ -155,6 +164,8 @@ std::vector<CaseOutcome> runPatients(const std::vector<Patient>& patients, const
                                 retracted.exitCode == 0 ? retracted.standardOutput : "");
         for (std::string& w : r.warnings) w = detail::anonymous(w, p.place.folder, p.place.id);
         r.outcome = outcomeOf(p.place.id, retracted, p.place.folder);
+        if (r.outcome.status == CaseOutcome::Status::Done && measured.exitCode != 0)
+          r.warnings.push_back(detail::notMeasured + outcomeOf(p.place.id, measured, p.place.folder).reason);
         if (options.reports) keepReport(work.path() / p.place.id, reportOf(options.output, p.place.id));
         writeWhole(resultOf(options.output, p.place.id), toJson(r));
         outcomes[p.place.id] = r.outcome;

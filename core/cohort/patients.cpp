@@ -90,6 +90,26 @@ void eachPath(Json& j, const std::function<void(Json&)>& fn) {
   }
 }
 
+/// The region and the stiffness mean the same to `measure` as to `run`.
+PatientFiles filesOf(const pipeline::Scene& scene) {
+  const pipeline::GeometrySpec& g = scene.geometry;
+  PatientFiles files{g.mri, g.mre, g.roi};
+  const auto say = [&](std::initializer_list<std::string> words) {
+    files.meaning.insert(files.meaning.end(), words.begin(), words.end());
+  };
+  if (scene.material.kind == pipeline::MaterialSpec::Kind::Map) {
+    files.mre = scene.material.map;
+    say({"--quantity", scene.material.quantity == StiffnessQuantity::Shear ? "shear" : "youngs"});
+    say({"--unit", scene.material.unit});
+  }
+  if (g.label != 0) say({"--label", std::to_string(g.label)});
+  if (!g.roiName.empty()) say({"--name", g.roiName});
+  for (const auto& [series, role] : g.roles) say({"--role", series + "=" + dicom::name(role)});
+  if (g.overrideChecks) say({"--override"});
+  if (g.rigidRegistration && scene.material.kind == pipeline::MaterialSpec::Kind::Mre) say({"--register"});
+  return files;
+}
+
 }  // namespace
 
 std::string withoutPaths(const std::string& sceneJson) {
@@ -130,7 +150,7 @@ PatientFiles findFiles(const fs::path& folder) {
     const pipeline::Scene scene = pipeline::readScene(folder / "scene.json");
     if (scene.geometry.kind != pipeline::GeometrySpec::Kind::Patient)
       throw BadInput("the patient's scene.json must have a geometry of kind \"patient\" (mri, mre, roi)");
-    return {scene.geometry.mri, scene.geometry.mre, scene.geometry.roi};
+    return filesOf(scene);
   }
   return {folder, folder, findRegion(folder)};
 }
@@ -145,9 +165,14 @@ std::string sceneOf(const fs::path& folder, const std::optional<std::string>& sc
   const PatientFiles files = findFiles(folder);
   Json geometry = own ? Json::parse(readText(folder / "scene.json"), nullptr, true, true)["geometry"] : Json::object();
   geometry["kind"] = "patient";
-  geometry["mri"] = fs::absolute(files.mri).string();
-  geometry["mre"] = fs::absolute(files.mre).string();
-  geometry["roi"] = fs::absolute(files.roi).string();
+  if (!own) {
+    geometry["mri"] = files.mri.string();
+    geometry["mre"] = files.mre.string();
+    geometry["roi"] = files.roi.string();
+  }
+  for (const char* name : {"mri", "mre", "roi"})
+    if (geometry.contains(name) && geometry[name].is_string())
+      geometry[name] = fs::absolute(folder / geometry[name].get<std::string>()).string();
   j["geometry"] = geometry;
   j["outputs"] = Json::array();
   if (!j.contains("compare")) j["compare"] = {{"against", "atlas"}};

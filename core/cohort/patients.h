@@ -24,10 +24,12 @@ std::string digestOfFolder(const std::filesystem::path& folder);
 /// The files that a patient's scene names: image, elastogram and region of interest.
 struct PatientFiles {
   std::filesystem::path mri, mre, roi;
+  std::vector<std::string> meaning = {};  ///< what the scene says of them, as further words of `measure`
 };
-/// From the patient's scene.json where it has one, else the folder itself for image and elastogram (series are found by
-/// role) and, for the region, the first of: roi.json, contours.json; an RT Structure Set or Segmentation; a NIfTI, NRRD
-/// or MetaImage mask named *roi*, *mask*, *liver* or *seg*. Throws BadInput where no region is found.
+/// From the patient's scene.json where it has one (a stiffness map stands for the elastogram where it names none), else
+/// the folder itself for image and elastogram (series are found by role) and, for the region, the first of: roi.json,
+/// contours.json; an RT Structure Set or Segmentation; a NIfTI, NRRD or MetaImage mask named *roi*, *mask*, *liver* or
+/// *seg*. Throws BadInput where no region is found.
 PatientFiles findFiles(const std::filesystem::path& folder);
 
 /// The retraction of a patient as scene JSON with absolute paths, outputs empty, compared with the atlas.

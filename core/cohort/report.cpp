@@ -35,7 +35,7 @@ Json toJson(const Spread& s) {
 
 render::Histogram histogram(const StiffnessStudy& s) {
   render::Histogram h;
-  h.title = "Mean liver stiffness of " + std::to_string(s.values_kPa.size()) + " patients";
+  h.title = "Mean liver stiffness of " + patients(s.values_kPa.size());
   h.x.title = std::string("Mean ") + (s.asPublished ? "Young's modulus E = 3µ (kPa)" : "shear modulus µ (kPa)");
   h.y.title = "Number of patients";
   h.values = s.values_kPa;
@@ -52,7 +52,7 @@ render::BoxPlot box(const char* title, const std::vector<double>& values, const 
   b.title = title;
   b.y.title = "Displacement difference, MRE − atlas (mm)";
   b.y.low = 0.0;
-  b.boxes = {{std::to_string(values.size()) + " patients", values}};
+  b.boxes = {{patients(values.size()), values}};
   b.lines = {line};
   b.caption = caption;
   return b;
@@ -173,7 +173,7 @@ std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& option
   text("patients.csv", patientsCsv(s));
   text("rejected.csv", rejectedCsv(s));
 
-  report::Page page("Cohort of " + std::to_string(s.records.size()) + " patients");
+  report::Page page("Cohort of " + patients(s.records.size()));
   const RetractionStudy& b = s.retraction;
   page.table({{"Patients tried", std::to_string(b.tried)},
               {"Rejected", std::to_string(b.rejected)},
@@ -195,6 +195,9 @@ std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& option
   } else {
     page.warning("No patient's stiffness could be measured.");
   }
+  for (const CaseRecord& r : s.records)
+    for (const std::string& w : r.warnings)
+      if (w.rfind(notMeasured, 0) == 0) page.warning(r.outcome.id + ": " + w);
 
   page.heading("Retraction: measured against atlas stiffness");
   if (b.left > 0) {

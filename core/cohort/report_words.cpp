@@ -14,6 +14,9 @@ using report::number;
 std::string orDash(double v, int digits) {
   return std::isfinite(v) ? number(v, digits) : "–";
 }
+std::string patients(std::size_t n) {
+  return std::to_string(n) + (n == 1 ? " patient" : " patients");
+}
 std::string percent(double fraction) {
   return number(100.0 * fraction, 3) + " %";
 }
@@ -23,6 +26,7 @@ std::string quantityOf(const StiffnessStudy& s) {
 }
 
 std::string inWords(const Spread& s, const char* unit) {
+  if (s.n == 1) return orDash(s.mean) + " " + unit + " (n = 1)";
   return orDash(s.mean) + " ± " + orDash(s.sd) + " " + unit + " (median " + orDash(s.median) + ", " + orDash(s.min) +
          " to " + orDash(s.max) + ", n = " + std::to_string(s.n) + ")";
 }
@@ -59,13 +63,13 @@ void inShort(report::Page& page, const Summary& s) {
   std::vector<std::string> items;
   if (!s.stiffness.values_kPa.empty())
     items.push_back("Stiffness (" + quantityOf(s.stiffness) + "): " + percent(s.stiffness.fractionOver1kPa) + " of " +
-                    std::to_string(s.stiffness.values_kPa.size()) + " patients are more than 1 kPa above " +
+                    patients(s.stiffness.values_kPa.size()) + " are more than 1 kPa above " +
                     number(s.stiffness.atlas_kPa) + " kPa, " + percent(s.stiffness.fractionOverTwice) +
                     " are more than twice as stiff.");
   if (s.retraction.left > 0)
     items.push_back("Retraction, measured against atlas stiffness: " + percent(s.retraction.fractionWithinVoxel) +
-                    " of " + std::to_string(s.retraction.left) +
-                    " patients agree within one MRI voxel on average over the liver; at the retractor " +
+                    " of " + patients(s.retraction.left) +
+                    " agree within one MRI voxel on average over the liver; at the retractor " +
                     percent(s.retraction.fractionSignificant) + " differ by 5 mm or more.");
   std::string changing;
   std::vector<std::string> seen;
@@ -78,8 +82,8 @@ void inShort(report::Page& page, const Summary& s) {
   }
   if (seen.size() > 1)
     items.push_back(
-        "Of the " + std::to_string(s.chosen.size()) + " patients shown, " +
-        std::to_string(significantUnder(s, seen.front())) + " are at 5 mm or more as simulated; " +
+        "Of the " + patients(s.chosen.size()) + " shown, " + std::to_string(significantUnder(s, seen.front())) +
+        " are at 5 mm or more as simulated; " +
         (changing.empty() ? "no assumption changes that number." : "another number under: " + changing + "."));
   page.list(items);
   if (s.stiffness.asPublished)
@@ -120,12 +124,12 @@ void reservations(report::Page& page, const Summary& s) {
     error.push_back(r.discretisation_mm);
   }
   if (beyond > 0)
-    page.warning(
-        "In " + std::to_string(beyond) + " of " + std::to_string(s.retraction.left) +
-        " patients strains or rotations are larger than linear elasticity allows for (in the median patient 5 % "
-        "of the liver strain by more than " +
-        percent(spreadOf(strain).median) + ", and the largest rotation is " + orDash(spreadOf(rotation).median) +
-        "°). The differences are those of the linear model that was asked for.");
+    page.warning("In " + std::to_string(beyond) + " of " + patients(s.retraction.left) +
+                 " strains or rotations are larger than linear elasticity allows for (in the median patient 5 % "
+                 "of the liver strain by more than " +
+                 percent(spreadOf(strain).median) + ", and the largest rotation is " +
+                 orDash(spreadOf(rotation).median) +
+                 "°). The differences are those of the linear model that was asked for.");
   const Spread e = spreadOf(error);
   if (e.n > 0)
     page.paragraph(

@@ -210,6 +210,7 @@ SofaExport writeSofa(const std::filesystem::path& folder, const retraction::Mode
   };
   const std::size_t dofs = 3 * scene.points_mm.size();
   const bool matrices = dofs <= options.matrixDofLimit;
+  scene.matrices = matrices;
   if (!matrices)
     scene.notes.push_back("K.mtx and M.mtx are left out above " + std::to_string(options.matrixDofLimit) +
                           " degrees of freedom (this body has " + std::to_string(dofs) +

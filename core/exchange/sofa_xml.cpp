@@ -170,12 +170,13 @@ std::string sofaReadme(const SofaScene& s) {
       << "liver_node.xml   the node alone; in a scene of your own, beside these files:\n"
       << "                 <include href=\"liver_node.xml\"/>\n"
       << "liver.vtk        " << s.points_mm.size() << " nodes, " << s.elements.size() << ' '
-      << (s.tetrahedra ? "tetrahedra" : "hexahedra") << ", one Young's modulus each (youngModulus, kPa)\n"
-      << "vessels.vtk      vessel centrelines, carried along by the liver (where vessels were asked for)\n"
-      << "K.mtx, M.mtx     stiffness without supports (N/m = mN/mm) and consistent mass (kg), Matrix Market, lower\n"
-      << "                 triangle; unknown 3 n + a + 1 is node n of liver.vtk along axis a of LPS\n"
-      << "springs.mtx      the spring supports in the same numbering (where there are any)\n\n"
-      << "MeshVTKLoader warns that the name youngModulus is in use already: that is harmless.\n\n"
+      << (s.tetrahedra ? "tetrahedra" : "hexahedra") << ", one Young's modulus each (youngModulus, kPa)\n";
+  if (!s.landmarks.points_lps_mm.empty()) out << "vessels.vtk      vessel centrelines, carried along by the liver\n";
+  if (s.matrices)
+    out << "K.mtx, M.mtx     stiffness without supports (N/m = mN/mm) and consistent mass (kg), Matrix Market, lower\n"
+        << "                 triangle; unknown 3 n + a + 1 is node n of liver.vtk along axis a of LPS\n";
+  if (s.matrices && !s.springs.empty()) out << "springs.mtx      the spring supports in the same numbering\n";
+  out << "\nMeshVTKLoader warns that the name youngModulus is in use already: that is harmless.\n\n"
       << "When nothing moves:\n"
       << "- CGLinearSolver's threshold is absolute; keep it at 1e-30, with its default soft tissue stays where it is.\n"
       << "- No mass: the nodes of elements that were left out of liver.vtk have none; use the file as it is.\n"

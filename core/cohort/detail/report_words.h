@@ -12,6 +12,8 @@ namespace glisson::cohort::detail {
 std::string orDash(double v, int digits = 3);
 /// 0.3 → "30 %"
 std::string percent(double fraction);
+/// "1 patient", "2 patients".
+std::string patients(std::size_t n);
 /// "shear modulus µ", or what the published study draws.
 std::string quantityOf(const StiffnessStudy& s);
 /// Mean, spread and range in one line.

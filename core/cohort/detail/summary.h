@@ -13,6 +13,9 @@
 
 namespace glisson::cohort::detail {
 
+/// Begins the warning of a patient that was retracted without a mean stiffness; the reason follows.
+inline const std::string notMeasured = "the mean stiffness was not measured: ";
+
 /// One assumption changed, on one patient.
 struct Variation {
   std::string name;   ///< "abdomen half as stiff", ...; "as simulated" is the baseline

@@ -46,6 +46,7 @@ struct SofaScene {
   double dt_s = 0.0;
   int steps = 0;
   double rayleighStiffness_s = 0.0, rayleighMass_1_s = 0.0;
+  bool matrices = false;  ///< K.mtx and M.mtx lie beside the node
   std::vector<std::string> notes;
 };
 

@@ -12,6 +12,7 @@
 namespace glisson::cohort {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
@@ -61,6 +62,21 @@ TEST(Patients, AskForARegionOfInterest) {
   EXPECT_EQ(findFiles(folder.path()).roi.filename(), "Liver_Mask.nii.gz");
   write(folder / "roi.json", "{}");
   EXPECT_EQ(findFiles(folder.path()).roi.filename(), "roi.json");
+}
+
+TEST(Patients, AreMeasuredAsTheirSceneSays) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"mri.nii.gz", "map.nii.gz", "liver.nii.gz"}) write(folder / name, "x");
+  write(folder / "scene.json", R"({"schema": "glisson/scene/1",
+      "geometry": {"kind": "patient", "mri": "mri.nii.gz", "roi": "liver.nii.gz", "label": 5},
+      "material": {"map": "map.nii.gz", "quantity": "shear", "unit": "Pa"},
+      "supports": [{"region": {"surface": "posterior"}, "kind": "fixed"}],
+      "loads": [{"kind": "body_force", "N_per_m3": [0, 0, -1]}]})");
+  const PatientFiles files = findFiles(folder.path());
+  EXPECT_EQ(files.mre.filename(), "map.nii.gz");
+  EXPECT_THAT(files.meaning, ElementsAre("--quantity", "shear", "--unit", "Pa", "--label", "5"));
+  // A map needs no elastogram: none is made up.
+  EXPECT_THAT(sceneOf(folder.path(), {}), Not(HasSubstr("\"mre\"")));
 }
 
 TEST(Patients, GetThePapersRetractionOrTheTemplate) {

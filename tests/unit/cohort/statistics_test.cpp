@@ -113,6 +113,8 @@ TEST(CohortRecords, NameNobody) {
   EXPECT_EQ(
       detail::anonymous("glisson-cli: /data/Doe^Jane/mri/x.dcm of Doe^Jane is cut off", "/data/Doe^Jane", "case-002"),
       "mri/x.dcm of case-002 is cut off");
+  EXPECT_EQ(detail::anonymous("nothing in '/data/2/': 2 of IM-0002.dcm, 20 slices", "/data/2", "case-002"),
+            "nothing in 'case-002': case-002 of IM-0002.dcm, 20 slices");
 }
 
 }  // namespace
