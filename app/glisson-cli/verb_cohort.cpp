@@ -48,8 +48,10 @@ int report(const Context& context, const cohort::CohortResult& r, const cohort::
   std::ostringstream text;
   std::size_t done = 0, resumed = 0;
   for (const cohort::CaseOutcome& c : r.cases) {
-    if (c.status == cohort::CaseOutcome::Status::Done) ++done;
-    if (c.resumed) ++resumed;
+    if (c.status == cohort::CaseOutcome::Status::Done) {
+      ++done;
+      if (c.resumed) ++resumed;
+    }
     if (!c.reason.empty()) text << c.id << "  left out: " << c.reason << "\n";
   }
   text << done << " of " << r.cases.size() << " patients done";
@@ -58,15 +60,18 @@ int report(const Context& context, const cohort::CohortResult& r, const cohort::
   if (!r.json.empty()) {
     const Json& s = j["stiffness"];
     const Json& d = j["retraction"];
-    text << "stiffness    " << 100.0 * s["fraction_over_1kPa"].get<double>() << " % more than 1 kPa above the atlas, "
-         << 100.0 * s["fraction_over_twice"].get<double>() << " % more than twice as stiff\n"
-         << "retraction   " << 100.0 * d["fraction_within_voxel"].get<double>() << " % within one voxel on average, "
-         << 100.0 * d["fraction_clinically_significant"].get<double>() << " % at 5 mm or more at the retractor\n"
-         << "report       " << (options.output / "report.html").string() << "\n";
+    if (s["measured"].get<int>() > 0)
+      text << "stiffness    " << 100.0 * s["fraction_over_1kPa"].get<double>() << " % more than 1 kPa above the atlas, "
+           << 100.0 * s["fraction_over_twice"].get<double>() << " % more than twice as stiff\n";
+    if (d["left"].get<int>() > 0)
+      text << "retraction   " << 100.0 * d["fraction_within_voxel"].get<double>() << " % within one voxel on average, "
+           << 100.0 * d["fraction_clinically_significant"].get<double>() << " % at 5 mm or more at the retractor\n";
+    text << "report       " << (options.output / "report.html").string() << "\n";
   }
   context.print(j, text.str());
   if (r.complete()) return Ok;
-  context.note(std::to_string(r.cases.size() - done) + " patients were left out; the reasons are in rejected.csv");
+  context.note(std::to_string(r.cases.size() - done) + " of " + std::to_string(r.cases.size()) +
+               " patients left out; the reasons are in " + (options.shards > 1 ? "each result.json" : "rejected.csv"));
   return PartialBatch;
 }
 
