@@ -2,22 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <set>
 #include <vector>
 
-#include "anatomy/surface_formats.h"
+#include "anatomy/detail/surface_formats.h"
 #include "base/error.h"
+#include "base/text.h"
 
 namespace glisson::anatomy {
 namespace {
-
-std::string extensionOf(const std::filesystem::path& p) {
-  std::string e = p.extension().string();
-  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return e;
-}
 
 /// Points at the same place become one; triangles without area and repeated ones go; so do points that none names.
 void tidy(TriangleMesh& mesh) {

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <vector>
 
-#include "anatomy/surface_formats.h"
+#include "anatomy/detail/surface_formats.h"
 
 namespace glisson::anatomy::detail {
 namespace {

@@ -19,7 +19,7 @@
 #include <mutex>
 #include <new>
 
-#include "anatomy/surface_formats.h"
+#include "anatomy/detail/surface_formats.h"
 
 namespace glisson::anatomy::detail {
 namespace {

@@ -1,7 +1,6 @@
 #include "cohort/patients.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -9,7 +8,9 @@
 
 #include "base/error.h"
 #include "base/sha256.h"
+#include "base/text.h"
 #include "dicom/series.h"
+#include "image/io.h"
 #include "pipeline/scene.h"
 
 namespace glisson::cohort {
@@ -26,21 +27,11 @@ std::vector<fs::path> filesBelow(const fs::path& folder) {
   return files;
 }
 
-std::string lower(std::string s) {
-  for (char& c : s) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return s;
-}
-
-bool endsWith(const std::string& s, const std::string& end) {
-  return s.size() >= end.size() && s.compare(s.size() - end.size(), end.size(), end) == 0;
-}
-
 bool looksLikeMask(const fs::path& file) {
-  const std::string name = lower(file.filename().string());
-  const bool volume = endsWith(name, ".nii") || endsWith(name, ".nii.gz") || endsWith(name, ".nrrd") ||
-                      endsWith(name, ".mha") || endsWith(name, ".mhd");
+  if (!image::isVolumeFile(file)) return false;
+  const std::string name = lowerCase(file.filename().string());
   for (const char* word : {"roi", "mask", "liver", "seg"})
-    if (volume && name.find(word) != std::string::npos) return true;
+    if (name.find(word) != std::string::npos) return true;
   return false;
 }
 

@@ -7,13 +7,13 @@
 #include <unistd.h>
 
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "dicom/detail/header_wire.h"
 #include "dicom/detail/reader_protocol.h"
 #include "dicom/image_header.h"
@@ -51,8 +51,7 @@ la_int64_t seekInput(struct archive*, void* user, la_int64_t offset, int whence)
 }
 
 bool isArchiveName(const fs::path& name) {
-  std::string e = name.extension().string();
-  for (char& c : e) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string e = extensionOf(name);
   return e == ".zip" || e == ".gz" || e == ".tgz" || e == ".7z" || e == ".rar" || e == ".tar" || e == ".bz2" ||
          e == ".xz";
 }

@@ -3,7 +3,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace glisson::image {
 namespace {
@@ -26,11 +26,6 @@ std::string quoted(const std::filesystem::path& file) {
   why << quoted(file) << " is truncated or damaged: its header announces " << needed << " bytes, " << there
       << " are there; copy it again";
   throw BadInput(why.str());
-}
-
-std::string lower(std::string s) {
-  for (char& c : s) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return s;
 }
 
 double bytesOfMetaType(const std::string& type) {
@@ -93,14 +88,14 @@ void checkMetaImage(const std::filesystem::path& file) {
     needed *= channels;
   }
   std::ifstream detached;
-  const bool local = lower(fields["ElementDataFile"]) == "local";
+  const bool local = lowerCase(fields["ElementDataFile"]) == "local";
   if (!local) {
     detached.open(file.parent_path() / fields["ElementDataFile"], std::ios::binary);
     if (!detached) throw BadInput(quoted(file) + " keeps its voxels in another file, which is not there as one file");
   }
   std::istream& data = local ? in : detached;
   double there = 0.0;
-  if (lower(fields["CompressedData"]) == "true") {
+  if (lowerCase(fields["CompressedData"]) == "true") {
     there = inflatedSize(data, needed);
   } else {
     const auto begin = data.tellg();
@@ -119,7 +114,7 @@ void checkNrrd(const std::filesystem::path& file) {
     if (line.empty()) return;  // the voxels follow in this file
     const std::size_t colon = line.find(':');
     if (colon == std::string::npos) continue;
-    const std::string field = lower(line.substr(0, colon));
+    const std::string field = lowerCase(line.substr(0, colon));
     if (field != "data file" && field != "datafile") continue;
     const std::size_t first = line.find_first_not_of(" \t", colon + 1);
     const std::string name = first == std::string::npos ? std::string() : line.substr(first);

@@ -17,6 +17,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "image/completeness.h"
 #include "image/detail/nifti.h"
 
@@ -33,9 +34,7 @@ constexpr double maxVoxelBytes = 4.0 * 1024 * 1024 * 1024;
 constexpr double maxDeflateRatio = 1040.0;
 
 Format formatOf(const std::filesystem::path& file) {
-  std::string name = file.filename().string();
-  for (char& c : name)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string name = lowerCase(file.filename().string());
   const auto ends = [&name](const char* end) { return name.size() > std::strlen(end) && name.ends_with(end); };
   if (ends(".nii.gz")) return Format::NiftiGz;
   if (ends(".nii")) return Format::Nifti;

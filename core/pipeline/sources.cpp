@@ -1,9 +1,9 @@
 #include "pipeline/sources.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "dicom/rtstruct.h"
 #include "dicom/seg.h"
 #include "elastography/roi_from_structures.h"
@@ -16,12 +16,6 @@
 
 namespace glisson::pipeline {
 namespace {
-
-std::string lowerExtension(const std::filesystem::path& p) {
-  std::string e = p.extension().string();
-  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return e;
-}
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
   to.insert(to.end(), from.begin(), from.end());
@@ -68,17 +62,13 @@ std::vector<std::string> doubtsAbout(const dicom::ScanResult& scan, const dicom:
 /// The segment that is asked for: by label number, by name, else the one called liver, else the only one.
 int segmentNumber(const dicom::SegmentationSet& set, const std::string& name, int label) {
   if (label != 0) return label;
-  const auto lower = [](std::string s) {
-    std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return s;
-  };
   std::vector<int> found;
   std::string there;
   for (const dicom::Segment& s : set.segments) {
     there += (there.empty() ? "" : ", ") + std::to_string(s.number) + " '" + s.label + "'";
     const bool liver = s.propertyCode == "SCT:10200004" || s.propertyCode == "SRT:T-62000" ||
-                       lower(s.label).find("liver") != std::string::npos;
-    if (name.empty() ? liver : lower(s.label) == lower(name)) found.push_back(s.number);
+                       lowerCase(s.label).find("liver") != std::string::npos;
+    if (name.empty() ? liver : lowerCase(s.label) == lowerCase(name)) found.push_back(s.number);
   }
   if (found.size() == 1) return found.front();
   if (name.empty() && set.segments.size() == 1) return set.segments.front().number;
@@ -193,7 +183,7 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
     }
     throw BadInput("no region of interest was found in '" + path.filename().string() + "': " + last);
   }
-  if (lowerExtension(path) == ".json") {
+  if (extensionOf(path) == ".json") {
     out.contours = roi::readContours(path);
   } else if (isRegionFile(path)) {
     out.mask = readRegion(path, label, std::nullopt, out.warnings);

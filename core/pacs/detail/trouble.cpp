@@ -5,10 +5,10 @@
 #include <dcmtk/dcmnet/assoc.h>
 #include <dcmtk/dcmnet/cond.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdio>
+
+#include "base/text.h"
 
 namespace glisson::pacs::detail {
 namespace {
@@ -34,11 +34,6 @@ std::string rejection(const Node& node, T_ASC_Parameters* parameters) {
                  ? "it gave no reason, but may accept later; try again"
                  : "it gave no reason; does it know our AE title '" + node.callingTitle + "'?";
   }
-}
-
-std::string lowered(std::string s) {
-  std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return s;
 }
 
 std::string sentenceFor(std::uint16_t status, const std::string& ourTitle) {
@@ -91,7 +86,7 @@ std::string whyNoAssociation(const Node& node, const OFCondition& condition, T_A
   const std::string place = placeOf(node);
   if (condition == DUL_ASSOCIATIONREJECTED)
     return "association rejected by " + place + ": " + rejection(node, parameters);
-  const std::string text = lowered(condition.text());
+  const std::string text = lowerCase(condition.text());
   if (text.find("refused") != std::string::npos)
     return "connection refused: no DICOM server listens at " + place + "; check --host and --port";
   if (condition == DUL_READTIMEOUT || text.find("timeout") != std::string::npos ||
