@@ -6,12 +6,10 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
-#include <QSettings>
 #include <QSignalSpy>
 #include <QSlider>
 #include <QTest>
 #include <QTreeWidget>
-#include <QWheelEvent>
 #include <cmath>
 
 #include "panels/compare_page.h"
@@ -19,27 +17,25 @@
 #include "panels/main_window.h"
 #include "panels/placement_editor.h"
 #include "panels/retract_page.h"
-#include "panels/theme.h"
 #include "pipeline/run.h"
 #include "session/model_preview.h"
 #include "session/stall_monitor.h"
-#include "support/support.h"
 #include "views/picture_view.h"
 #include "views/scene_view.h"
 #include "views/slice_view.h"
+#include "window_bench.h"
 
-using glisson::panels::MainWindow;
 using glisson::panels::PlacementEditor;
 using glisson::session::Session;
 using glisson::session::StallMonitor;
 using glisson::session::Step;
+using glisson::test::drag;
+using glisson::test::wait_ms;
 using glisson::views::Mark;
 using glisson::views::SceneView;
 using glisson::views::SliceView;
 
 namespace {
-
-constexpr int wait_ms = 120000;
 
 /// How many pixels differ clearly.
 int changed(const QImage& a, const QImage& b) {
@@ -55,45 +51,17 @@ int changed(const QImage& a, const QImage& b) {
 
 }  // namespace
 
-class Scene3D : public QObject {
+class Scene3D : public QObject, private glisson::test::WindowBench {
   Q_OBJECT
 
  private:
-  glisson::test::TemporaryFolder folder_;
-  std::unique_ptr<MainWindow> window_;
-
   Eigen::Vector3d laid_ = Eigen::Vector3d::Zero();
   double energy_J_ = 0.0;
 
-  Session& session() { return window_->session(); }
-  template <typename W>
-  W* find(const char* name) {
-    W* found = window_->findChild<W*>(QString::fromLatin1(name));
-    if (!found) qFatal("no widget is called %s", name);
-    return found;
-  }
-  QString path(const char* name) { return QString::fromStdString((folder_ / name).string()); }
-  /// A window with the synthetic patient and the outlines of its own structure set.
-  std::unique_ptr<MainWindow> open() {
-    auto window = std::make_unique<MainWindow>();
-    window->session().setJournalFolder(path("journals"));
-    window->session().setWorkFolder(path("work"));
-    window->show();
-    QSignalSpy loaded(&window->session(), &Session::loaded);
-    window->session().openSynthetic(3, path("patients"));
-    if (!loaded.wait(wait_ms)) qFatal("the synthetic patient was not opened");
-    window->session().importContours(path("patients/synthetic-patient-3/rtstruct.dcm"));
-    return window;
-  }
   const Mark* mark(const SceneView* view, int id) {
     for (const Mark& m : view->marks())
       if (m.id == id) return &m;
     return nullptr;
-  }
-  void drag(QWidget* on, const QPoint& from, const QPoint& to) {
-    QTest::mousePress(on, Qt::LeftButton, {}, from);
-    for (int s = 1; s <= 6; ++s) QTest::mouseMove(on, from + (to - from) * s / 6);
-    QTest::mouseRelease(on, Qt::LeftButton, {}, to);
   }
   /// The fine picture that follows an act.
   template <typename Act>
@@ -118,13 +86,13 @@ class Scene3D : public QObject {
       glisson::panels::applyTheme(theme);
       QTest::qWait(300);
       const char* suffix = theme == glisson::panels::Theme::Light ? "light" : "dark";
-      window_->grab().save(QStringLiteral("%1/%2-%3.png").arg(folder, QLatin1String(name), QLatin1String(suffix)));
+      window().grab().save(QStringLiteral("%1/%2-%3.png").arg(folder, QLatin1String(name), QLatin1String(suffix)));
     }
   }
   void undo() { find<QAction>("undoAction")->trigger(); }
   glisson::retraction::Retractor writtenBar() {
     session().saveCase(path("placed"));
-    const auto scene = glisson::pipeline::readScene(folder_ / "placed" / "scene.json");
+    const auto scene = glisson::pipeline::readScene(folder() / "placed" / "scene.json");
     return std::get<glisson::retraction::Retractor>(scene.setup.loads.front());
   }
   /// Turns the view with the left button, in steps of some pixels.
@@ -140,16 +108,16 @@ class Scene3D : public QObject {
 
  private slots:
   void initTestCase() {
-    glisson::panels::applyTheme(glisson::panels::Theme::Dark);
-    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, path("settings"));
-    window_ = open();
+    QVERIFY(openSynthetic());
+    // With the outlines of its own structure set.
+    session().importContours(path("patients/synthetic-patient-3/rtstruct.dcm"));
     auto parameters = session().parameters();
     parameters.cell_mm = 6.0;
     session().setParameters(parameters);
   }
 
   void theModelIsShownAndItsPartsAreSwitchedOff() {
-    window_->showStep(Step::Model);
+    window().showStep(Step::Model);
     auto* view = find<SceneView>("modelView");
     QTRY_VERIFY_WITH_TIMEOUT(view->hasModel(), wait_ms);
     const auto model = session().preview().picture();
@@ -184,7 +152,7 @@ class Scene3D : public QObject {
   }
 
   void barHoistAndHoldsAreLaidWithTheMouse() {
-    window_->showStep(Step::Retract);
+    window().showStep(Step::Retract);
     auto* view = find<SceneView>("retractView");
     QTRY_VERIFY_WITH_TIMEOUT(view->hasModel() && !view->picture().isNull(), wait_ms);
     QTRY_VERIFY(mark(view, PlacementEditor::contact) != nullptr);
@@ -230,12 +198,12 @@ class Scene3D : public QObject {
     QVERIFY((bar.axis - laid.placement.barAxis).norm() < 1e-12);
     QVERIFY((bar.direction - laid.placement.hoistDirection).norm() < 1e-12);
     QCOMPARE(bar.length_mm, laid.retractorLength_mm);
-    const auto scene = glisson::pipeline::readScene(folder_ / "placed" / "scene.json");
+    const auto scene = glisson::pipeline::readScene(folder() / "placed" / "scene.json");
     QCOMPARE(scene.setup.supports.size(), std::size_t{3});
     const auto& block = std::get<glisson::retraction::BoxRegion>(scene.setup.supports[2].region);
     QVERIFY((0.5 * (block.low_mm + block.high_mm) - laid.placement.holds[0].centre_lps).norm() < 1e-9);
     QVERIFY((block.high_mm - block.low_mm - Eigen::Vector3d::Constant(30.0)).norm() < 1e-9);
-    QVERIFY(glisson::session::readCaseRecord(folder_ / "placed").parameters.placement == laid.placement);
+    QVERIFY(glisson::session::readCaseRecord(folder() / "placed").parameters.placement == laid.placement);
 
     // Each drag, click and number is one step back, and forth again; outlines are not touched.
     const auto outlines = session().contours().polygons.size();
@@ -276,7 +244,7 @@ class Scene3D : public QObject {
     drag(view, from, from + QPoint(10, -8));
     const auto bar = writtenBar();
     QVERIFY(bar.at_mm.has_value());
-    auto scene = glisson::pipeline::readScene(folder_ / "placed" / "scene.json");
+    auto scene = glisson::pipeline::readScene(folder() / "placed" / "scene.json");
     scene.outputs = {};
     const auto there = glisson::pipeline::run(scene, {});
     QVERIFY(there.primary.retractorPoint_mm.has_value());
@@ -291,8 +259,8 @@ class Scene3D : public QObject {
   }
 
   void theWindowAnswersWhileTheFirstSceneIsDrawn() {
-    auto* compare = window_->findChild<glisson::panels::ComparePage*>();
-    auto* live = window_->findChild<glisson::panels::LiveBar*>();
+    auto* compare = window().findChild<glisson::panels::ComparePage*>();
+    auto* live = window().findChild<glisson::panels::LiveBar*>();
     auto* view = find<SceneView>("retractView");
     QSignalSpy ended(&session(), &Session::workEnded);
     QSignalSpy retractDrawn(view, &SceneView::rendered);
@@ -303,7 +271,7 @@ class Scene3D : public QObject {
       qInfo("%s: %zu looks, 99 %% within %.1f ms, the longest %.1f ms", when, r.looks, r.p99_ms, r.max_ms);
       part.restart();
     };
-    window_->showStep(Step::Retract);
+    window().showStep(Step::Retract);
     QTest::mouseClick(find<QPushButton>("runButton"), Qt::LeftButton);
     QVERIFY(ended.wait(wait_ms));
     QVERIFY(session().result());
@@ -314,7 +282,7 @@ class Scene3D : public QObject {
     QVERIFY(compareDrawn.count() > 0 || compareDrawn.wait(wait_ms));
     told("first scene, Compare");
     QTRY_VERIFY_WITH_TIMEOUT(live->isReady(), wait_ms);
-    window_->showStep(Step::Retract);
+    window().showStep(Step::Retract);
     QVERIFY(retractDrawn.count() > 0 || retractDrawn.wait(wait_ms));
     told("first scene, Retract");
     const auto before = view->camera();
@@ -344,8 +312,8 @@ class Scene3D : public QObject {
   }
 
   void aVesselIsChosenIn3D() {
-    window_->showStep(Step::Compare);
-    auto* compare = window_->findChild<glisson::panels::ComparePage*>();
+    window().showStep(Step::Compare);
+    auto* compare = window().findChild<glisson::panels::ComparePage*>();
     auto* view = compare->sceneView();
     auto* list = find<QTreeWidget>("vesselList");
     QVERIFY(list->topLevelItemCount() >= 2);
@@ -379,7 +347,7 @@ class Scene3D : public QObject {
   }
 
   void arrowsAreDrawnInTheSliceAndIn3D() {
-    auto* compare = window_->findChild<glisson::panels::ComparePage*>();
+    auto* compare = window().findChild<glisson::panels::ComparePage*>();
     auto* view = compare->sceneView();
     const QImage scene = settled(view), slice = find<glisson::views::PictureView>("overlayView")->picture();
     QSignalSpy drawn(compare, &glisson::panels::ComparePage::overlayShown);
@@ -395,7 +363,7 @@ class Scene3D : public QObject {
     QVERIFY(find<glisson::views::PictureView>("overlayView")->picture().width() < slice.width());
   }
 
-  void cleanupTestCase() { window_.reset(); }
+  void cleanupTestCase() { close(); }
 };
 
 QTEST_MAIN(Scene3D)

@@ -2,7 +2,6 @@
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
-#include <vtkCylinderSource.h>
 #include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
@@ -12,12 +11,14 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkTransform.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "views/bar_actor.h"
 
 namespace glisson::views {
 
@@ -89,10 +90,7 @@ struct Surface {
 struct LiveLayer::Private {
   Colours colour;
   Surface liverMre, liverAtlas, vesselsMre, vesselsAtlas;
-  vtkNew<vtkActor> bar;
-  vtkNew<vtkTransform> place;
-  Eigen::Matrix4d barFrame = Eigen::Matrix4d::Identity();
-  bool hasBar = false;
+  std::optional<BarActor> bar;
 
   void paintLiver() {
     for (const auto& [surface, own] : {std::pair{&liverMre, colour.mre}, {&liverAtlas, colour.atlas}}) {
@@ -111,22 +109,9 @@ LiveLayer::LiveLayer(const render::RetractionScene& scene, render::Palette palet
   d_->vesselsMre.make(scene.vesselSurface, true);
   d_->vesselsAtlas.make(scene.vesselSurface, true);
   if (scene.retractorPoint_lps_mm) {
-    d_->hasBar = true;
     rest_lps_ = tool_lps_ = *scene.retractorPoint_lps_mm;
-    vtkNew<vtkCylinderSource> cylinder;  // along y
-    cylinder->SetRadius(0.5 * scene.retractorDiameter_mm);
-    cylinder->SetHeight(scene.retractorLength_mm);
-    cylinder->SetResolution(32);
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(cylinder->GetOutputPort());
-    d_->bar->SetMapper(mapper);
-    d_->bar->GetProperty()->SetColor(0.80, 0.82, 0.85);
-    d_->bar->GetProperty()->SetSpecular(0.5);
-    d_->barFrame.topLeftCorner<3, 3>() =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), scene.retractorAxis).toRotationMatrix();
-    d_->barFrame.topRightCorner<3, 1>() =
-        rest_lps_ - 0.5 * scene.retractorDiameter_mm * scene.retractorDirection.normalized();
-    d_->bar->SetUserTransform(d_->place);
+    d_->bar.emplace(tools::BarPlace{rest_lps_, scene.retractorAxis, scene.retractorDirection,
+                                    scene.retractorDiameter_mm, scene.retractorLength_mm});
   }
   setPalette(palette);
   const auto points = scene.liverSurface.vertices_lps_mm.cols() + scene.vesselSurface.vertices_lps_mm.cols();
@@ -138,7 +123,7 @@ LiveLayer::~LiveLayer() = default;
 void LiveLayer::addTo(vtkRenderer* renderer) {
   for (Surface* s : {&d_->vesselsAtlas, &d_->vesselsMre, &d_->liverAtlas, &d_->liverMre})
     if (s->rest.cols() > 0) renderer->AddViewProp(s->actor);
-  if (d_->hasBar) renderer->AddViewProp(d_->bar);
+  if (d_->bar) renderer->AddViewProp(d_->bar->actor());
 }
 
 void LiveLayer::setPalette(render::Palette palette) {
@@ -166,9 +151,7 @@ void LiveLayer::move(const Eigen::Matrix3Xd& mre_mm, const Eigen::Matrix3Xd& atl
   d_->vesselsMre.colours->Modified();
   d_->vesselsAtlas.colours->Modified();
   tool_lps_ = rest_lps_ + tool_mm;
-  Eigen::Matrix<double, 4, 4, Eigen::RowMajor> frame = d_->barFrame;
-  frame.topRightCorner<3, 1>() += tool_mm;
-  d_->place->SetMatrix(frame.data());
+  if (d_->bar) d_->bar->shift(tool_mm);
 }
 
 }  // namespace glisson::views

@@ -2,7 +2,6 @@
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
-#include <vtkCylinderSource.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -12,14 +11,14 @@
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkTransform.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <list>
+#include <optional>
 
+#include "views/bar_actor.h"
 #include "views/colour_map.h"
 
 namespace glisson::views {
@@ -77,8 +76,7 @@ void takePoints(Part& part, const Eigen::Matrix3Xd& at, double size_px) {
 struct ModelLayer::Private {
   Part liver, vessels, sites;
   std::list<Part> supports;
-  vtkNew<vtkActor> bar;
-  bool hasBar = false;
+  std::optional<BarActor> bar;
   Eigen::VectorXf shear_kPa;
 
   void paintStiffness(bool on, double most_kPa) {
@@ -121,25 +119,7 @@ ModelLayer::ModelLayer(const tools::ModelPicture& picture, double pixelRatio) : 
     takePoints(part, support.points_lps, (support.fixed ? 5.0 : 2.2) * pixelRatio);
     support.fixed ? part.colour(1.0, 0.55, 0.0) : part.colour(0.25, 0.85, 0.80);
   }
-  if (picture.bar) {
-    d_->hasBar = true;
-    vtkNew<vtkCylinderSource> cylinder;  // along y
-    cylinder->SetRadius(0.5 * picture.bar->diameter_mm);
-    cylinder->SetHeight(picture.bar->length_mm);
-    cylinder->SetResolution(32);
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(cylinder->GetOutputPort());
-    d_->bar->SetMapper(mapper);
-    d_->bar->GetProperty()->SetColor(0.80, 0.82, 0.85);
-    d_->bar->GetProperty()->SetSpecular(0.5);
-    Eigen::Matrix<double, 4, 4, Eigen::RowMajor> frame = Eigen::Matrix4d::Identity();
-    frame.topLeftCorner<3, 3>() =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), picture.bar->axis).toRotationMatrix();
-    frame.topRightCorner<3, 1>() = picture.bar->contact_lps - 0.5 * picture.bar->diameter_mm * picture.bar->direction;
-    vtkNew<vtkTransform> place;
-    place->SetMatrix(frame.data());
-    d_->bar->SetUserTransform(place);
-  }
+  if (picture.bar) d_->bar.emplace(*picture.bar);
 }
 
 ModelLayer::~ModelLayer() = default;
@@ -147,7 +127,7 @@ ModelLayer::~ModelLayer() = default;
 void ModelLayer::addTo(vtkRenderer& renderer) {
   for (Part* part : {&d_->vessels, &d_->sites}) renderer.AddViewProp(part->actor);
   for (Part& part : d_->supports) renderer.AddViewProp(part.actor);
-  if (d_->hasBar) renderer.AddViewProp(d_->bar);
+  if (d_->bar) renderer.AddViewProp(d_->bar->actor());
   renderer.AddViewProp(d_->liver.actor);
 }
 
@@ -160,7 +140,7 @@ void ModelLayer::show(const ModelParts& parts) {
   d_->vessels.actor->SetVisibility(parts.vessels);
   d_->sites.actor->SetVisibility(parts.sites);
   for (Part& part : d_->supports) part.actor->SetVisibility(parts.supports);
-  d_->bar->SetVisibility(parts.bar);
+  if (d_->bar) d_->bar->actor()->SetVisibility(parts.bar);
 }
 
 }  // namespace glisson::views
