@@ -28,7 +28,7 @@ struct Patient {
   std::string key;
 };
 
-Patient prepare(const PatientFolder& place, const std::optional<std::string>& sceneTemplate) {
+Patient prepare(const PatientFolder& place, const std::optional<std::string>& sceneTemplate, bool reports) {
   Patient p;
   p.place = place;
   std::string all;
@@ -45,6 +45,8 @@ Patient prepare(const PatientFolder& place, const std::optional<std::string>& sc
     p.refused = detail::anonymous(e.what(), place.folder, place.id);
   }
   all += (p.scene.empty() ? "" : withoutPaths(p.scene)) + (sceneTemplate ? *sceneTemplate : "") + version();
+  // A report compares vessels, whose numbers are then in the record: one cohort holds records of one kind.
+  if (reports) all += "reports";
   p.key = sha256(all.data(), all.size());
   return p;
 }
@@ -223,7 +225,7 @@ CohortResult runCohort(const fs::path& folder, const CohortOptions& options, con
   for (const PatientFolder& place : all) {
     if ((place.number - 1) % options.shards != options.shard - 1) continue;
     progress.report(0.05 * place.number / static_cast<double>(all.size()), "reading " + place.id);
-    patients.push_back(prepare(place, sceneTemplate));
+    patients.push_back(prepare(place, sceneTemplate, options.reports));
   }
   CohortResult result;
   const bool whole = options.shards == 1;
