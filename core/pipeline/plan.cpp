@@ -46,24 +46,44 @@ namespace {
 struct BodySize {
   double voxels = 0.0;
   double volume_mm3 = 0.0;
+  double surface_mm2 = 0.0;
 };
+
+/// Of the smooth body: staircases are 3/2 as large as a surface that faces all directions alike.
+double smoothSurface_mm2(const image::Mask& mask) {
+  const image::Grid& g = mask.grid;
+  double stairs_mm2 = 0.0;
+  for (int k = 0; k < g.size.z(); ++k)
+    for (int j = 0; j < g.size.y(); ++j)
+      for (int i = 0; i < g.size.x(); ++i) {
+        if (mask.at(i, j, k) == 0) continue;
+        for (int a = 0; a < 3; ++a)
+          for (const int side : {-1, 1}) {
+            Eigen::Vector3i beside(i, j, k);
+            beside[a] += side;
+            if (!g.contains(beside) || mask.at(beside) == 0) stairs_mm2 += g.voxelVolume_mm3() / g.spacing_mm[a];
+          }
+      }
+  return stairs_mm2 / 1.5;
+}
 
 /// Exactly for a box, from the mask for a mask, for an ordinary liver of 1.5 L otherwise.
 BodySize predictBody(const Scene& s) {
   const GeometrySpec& g = s.geometry;
   if (g.kind == GeometrySpec::Kind::Box)
-    return {g.size_mm.cwiseQuotient(g.cell_mm).array().round().prod(), g.size_mm.prod()};
+    return {g.size_mm.cwiseQuotient(g.cell_mm).array().round().prod(), g.size_mm.prod(),
+            2.0 * g.size_mm.prod() * g.size_mm.cwiseInverse().sum()};
   if (g.kind == GeometrySpec::Kind::Mask) {
     std::vector<std::string> ignored;
     const image::Mask mask = readRegion(g.file, g.label, surfaceCell_mm(g), ignored);
     double filled = 0;
     for (const std::uint8_t v : mask.values) filled += v;
     const double volume_mm3 = filled * mask.grid.voxelVolume_mm3();
-    return {g.cell_mm.x() > 0 ? volume_mm3 / g.cell_mm.prod() : filled, volume_mm3};
+    return {g.cell_mm.x() > 0 ? volume_mm3 / g.cell_mm.prod() : filled, volume_mm3, smoothSurface_mm2(mask)};
   }
-  constexpr double ordinaryLiver_mm3 = 1.5e6;
+  constexpr double ordinaryLiver_mm3 = 1.5e6, ordinaryLiver_mm2 = 8e4;
   const double cell_mm3 = g.cell_mm.x() > 0 ? g.cell_mm.prod() : std::pow(2.0 * defaults::mriVoxel.mm(), 3);
-  return {ordinaryLiver_mm3 / cell_mm3, ordinaryLiver_mm3};
+  return {ordinaryLiver_mm3 / cell_mm3, ordinaryLiver_mm3, ordinaryLiver_mm2};
 }
 
 /// Number of nodes, exactly for a box.
@@ -106,20 +126,28 @@ struct DelaunaySize {
   double dofs = 0.0;
 };
 
-/// Delaunay tetrahedra, to about 25 %: fitted to livers meshed at 8 to 14 mm, with and without a finer zone at the
-/// tool.
-DelaunaySize predictDelaunay(const Scene& s, double volume_mm3) {
-  constexpr double filling = 0.072;  // volume of a tetrahedron over the cube of the cell size asked for
-  const auto cellsOf = [](double mm3, double size_mm) { return mm3 / (filling * std::pow(size_mm, 3)); };
+/// Delaunay tetrahedra, to 25 % from 8 to 20 mm. Inside, their number goes with volume / size³; along the surface, with
+/// area / size². Both factors of both are fitted to livers, a ball and a flat ellipsoid.
+DelaunaySize predictDelaunay(const Scene& s, const BodySize& body) {
   const retraction::ModelSpec& m = s.setup.model;
-  DelaunaySize d;
-  d.cells = cellsOf(volume_mm3, m.cell_mm);
+  double inside = body.volume_mm3 / std::pow(m.cell_mm, 3), along = body.surface_mm2 / std::pow(m.cell_mm, 2);
   for (const retraction::LoadSpec& load : s.setup.loads)
     if (const auto* bar = std::get_if<retraction::Retractor>(&load)) {
-      const double zone_mm3 = std::numbers::pi * std::pow(bar->diameter_mm, 2) * bar->length_mm;
-      d.cells += cellsOf(zone_mm3, std::min(m.cell_mm, m.toolCell_mm)) - cellsOf(zone_mm3, m.cell_mm);
+      // The bar lies on the surface: half of what is within a distance of its axis is inside the body. The size grows
+      // from the bar's reach on (anatomy/tetrahedra.h).
+      constexpr double growth = 0.3, step_mm = 0.5;
+      for (double r = 0.5 * step_mm;; r += step_mm) {
+        const double size_mm = std::min(m.cell_mm, m.toolCell_mm) + growth * std::max(0.0, r - bar->diameter_mm);
+        if (size_mm >= m.cell_mm) break;
+        const double area_mm2 = 2.0 * (bar->length_mm + std::numbers::pi * r) * step_mm;
+        inside += 0.5 * std::numbers::pi * (2.0 * r * bar->length_mm + 4.0 * r * r) * step_mm *
+                  (std::pow(size_mm, -3) - std::pow(m.cell_mm, -3));
+        along += area_mm2 * (std::pow(size_mm, -2) - std::pow(m.cell_mm, -2));
+      }
     }
-  d.dofs = 3.0 * (m.quadraticTets ? 1.48 : 0.2) * d.cells;
+  DelaunaySize d;
+  d.cells = 10.1 * inside + 6.1 * along;
+  d.dofs = 3.0 * (m.quadraticTets ? 10.2 * inside + 18.0 * along : 1.16 * inside + 3.1 * along);
   return d;
 }
 
@@ -130,7 +158,7 @@ std::vector<PlanStep> plan(const Scene& s) {
   const BodySize body = predictBody(s);
   const bool tets = s.setup.model.kind == retraction::ModelKind::FemTet;
   const bool delaunay = tets && s.setup.model.delaunay;
-  const DelaunaySize tetrahedra = delaunay ? predictDelaunay(s, body.volume_mm3) : DelaunaySize{};
+  const DelaunaySize tetrahedra = delaunay ? predictDelaunay(s, body) : DelaunaySize{};
   const double cells = delaunay ? tetrahedra.cells : body.voxels;
   const double nodes = predictNodes(s, body.voxels);
   const Frames frames = predictFrames(s.setup.model.meshfree, nodes, body.voxels);
