@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
 
 #include "anatomy/isosurface.h"
+#include "base/disjoint_sets.h"
 
 namespace glisson::anatomy {
 namespace {
@@ -14,20 +14,12 @@ constexpr std::size_t leastPoints = 16, mostPoints = 2000;  // per part
 
 /// Part of the surface that each vertex belongs to, named after its first vertex.
 std::vector<int> partsOf(const TriangleMesh& mesh) {
-  std::vector<int> root(static_cast<std::size_t>(mesh.vertices_lps_mm.cols()));
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int i) {
-    while (root[static_cast<std::size_t>(i)] != i)
-      i = root[static_cast<std::size_t>(i)] = root[static_cast<std::size_t>(root[static_cast<std::size_t>(i)])];
-    return i;
-  };
+  std::vector<int> parts(static_cast<std::size_t>(mesh.vertices_lps_mm.cols()));
+  DisjointSets sets(parts.size());
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (int c = 1; c < 3; ++c) {
-      const int a = find(mesh.triangles(0, t)), b = find(mesh.triangles(c, t));
-      root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
-  for (std::size_t i = 0; i < root.size(); ++i) root[i] = find(static_cast<int>(i));
-  return root;
+    for (int c = 1; c < 3; ++c) sets.join(mesh.triangles(0, t), mesh.triangles(c, t));
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = sets.find(static_cast<int>(i));
+  return parts;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "anatomy/isosurface.h"
+#include "base/disjoint_sets.h"
 
 namespace glisson::anatomy {
 namespace {
@@ -26,21 +27,14 @@ Adjacency widestForest(const Centreline& line, int& loopsCut) {
   const auto radius = [&](int v) { return line.radius_mm[static_cast<std::size_t>(v)]; };
   const auto width = [&](std::size_t e) { return std::min(radius(line.edges[e][0]), radius(line.edges[e][1])); };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return width(a) > width(b); });
-  std::vector<int> root(line.points_lps_mm.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int i) {
-    while (root[static_cast<std::size_t>(i)] != i)
-      i = root[static_cast<std::size_t>(i)] = root[static_cast<std::size_t>(root[static_cast<std::size_t>(i)])];
-    return i;
-  };
+  DisjointSets joined(line.points_lps_mm.size());
   Adjacency next(line.points_lps_mm.size());
   for (const std::size_t e : order) {
     const auto [a, b] = line.edges[e];
-    if (find(a) == find(b)) {
+    if (!joined.join(a, b)) {
       ++loopsCut;
       continue;
     }
-    root[static_cast<std::size_t>(std::max(find(a), find(b)))] = std::min(find(a), find(b));
     next[static_cast<std::size_t>(a)].push_back(b);
     next[static_cast<std::size_t>(b)].push_back(a);
   }

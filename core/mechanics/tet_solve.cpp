@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <sstream>
 
+#include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "mechanics/block_matrix.h"
@@ -79,28 +79,18 @@ Held readFixations(const TetProblem& p) {
 
 /// Every piece (tetrahedra that share nodes) must be held against its six rigid motions.
 void requireHeld(const TetProblem& p) {
-  std::vector<int> root(static_cast<std::size_t>(p.mesh.nodeCount()));
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int i) {
-    while (root[static_cast<std::size_t>(i)] != i)
-      i = root[static_cast<std::size_t>(i)] = root[static_cast<std::size_t>(root[static_cast<std::size_t>(i)])];
-    return i;
-  };
+  DisjointSets pieces(static_cast<std::size_t>(p.mesh.nodeCount()));
   for (int t = 0; t < p.mesh.tetCount(); ++t)
-    for (const int node : p.mesh.tets.col(t)) {
-      const int a = find(node);
-      const int b = find(p.mesh.tets(0, t));
-      root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
+    for (const int node : p.mesh.tets.col(t)) pieces.join(node, p.mesh.tets(0, t));
   double stiffest = 0;
   for (const Spring& s : p.supports.springs) stiffest = std::max(stiffest, s.k_N_m.cwiseAbs().maxCoeff());
   const Eigen::Vector3d low = p.mesh.nodes_m.rowwise().minCoeff();
   const Eigen::Vector3d high = p.mesh.nodes_m.rowwise().maxCoeff();
   for (int piece = 0; piece < p.mesh.nodeCount(); ++piece) {
-    if (find(piece) != piece) continue;
+    if (pieces.find(piece) != piece) continue;
     Eigen::Matrix<double, 6, 6> S = Eigen::Matrix<double, 6, 6>::Zero();
     const auto add = [&](int node, const Eigen::Matrix3d& s) {
-      if (find(node) != piece) return;
+      if (pieces.find(node) != piece) return;
       const Eigen::Vector3d x = (p.mesh.nodes_m.col(node) - 0.5 * (low + high)) / (0.5 * (high - low).norm());
       Eigen::Matrix<double, 3, 6> J;
       J << Eigen::Matrix3d::Identity(),
