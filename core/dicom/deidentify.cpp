@@ -9,6 +9,7 @@
 #include <dcmtk/dcmdata/dctk.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "dicom/detail/attributes.h"
 #include "dicom/detail/deidentify_actions.h"
 #include "dicom/detail/writer.h"
@@ -47,9 +48,7 @@ std::string shiftedDate(const std::string& date, int days) {
 
 /// A liver is called so in every language that its outline's name is searched for; all else gets a number.
 std::string structureName(const std::string& name, int number) {
-  std::string low;
-  for (const char c : name) low += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return low.find("liver") != std::string::npos ? "liver" : "ROI " + std::to_string(number);
+  return lowerCase(name).find("liver") != std::string::npos ? "liver" : "ROI " + std::to_string(number);
 }
 
 std::string dummyFor(DcmElement& element, const std::string& old, Case& c) {
@@ -79,8 +78,7 @@ std::string knownWords(const std::string& description) {
       "kpa",    "30hz",      "40hz",       "50hz",         "60hz",       "80hz",     "epi",   "gre",     "se",
       "tse",    "fse",       "ssfse",      "haste"};
   std::string low, out;
-  for (const char ch : description + " ") {
-    const char l = ch >= 'A' && ch <= 'Z' ? static_cast<char>(ch - 'A' + 'a') : ch;
+  for (const char l : lowerCase(description) + " ") {
     if ((l >= 'a' && l <= 'z') || (l >= '0' && l <= '9')) {
       low += l;
       continue;

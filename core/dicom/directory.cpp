@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "dicom/detail/attributes.h"
 #include "dicom/detail/header_wire.h"
 #include "dicom/reader_process.h"
@@ -15,15 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string lower(std::string s) {
-  for (char& c : s)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return s;
-}
-
 /// A name as discs and their copies write it: without case, version and closing dot.
 std::string plainName(std::string name) {
-  name = lower(std::move(name));
+  name = lowerCase(std::move(name));
   if (name.ends_with(";1")) name.resize(name.size() - 2);
   if (name.ends_with(".")) name.pop_back();
   return name;

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "dicom/detail/naming.h"
 #include "dicom/image_header.h"
 #include "dicom/pixels.h"
 #include "dicom/series.h"
@@ -11,7 +12,7 @@ void readFile(const Series& series, std::size_t index, image::ScalarVolume& volu
   const std::filesystem::path& file = series.files[index];
   const std::size_t sliceSize =
       static_cast<std::size_t>(volume.grid.size.x()) * static_cast<std::size_t>(volume.grid.size.y());
-  try {
+  detail::naming(file, [&] {
     PixelReader reader(file);
     const ImageHeader& header = reader.header();
     const std::size_t base = series.uid.find('#');
@@ -29,13 +30,7 @@ void readFile(const Series& series, std::size_t index, image::ScalarVolume& volu
       if (frame >= header.frames.size()) throw BadInput("has fewer frames than when it was scanned; scan it again");
       reader.read(header.frames[frame], volume.values.data() + k * sliceSize);
     }
-  } catch (const RefusedFile& e) {
-    throw BadInput("'" + file.filename().string() + "' " + e.reason);
-  } catch (const BadInput& e) {
-    throw BadInput("'" + file.filename().string() + "' " + e.what());
-  } catch (const std::bad_alloc&) {
-    throw BadInput("'" + file.filename().string() + "' does not fit into memory");
-  }
+  });
 }
 
 }  // namespace

@@ -5,15 +5,10 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace glisson::dicom {
 namespace {
-
-std::string lower(std::string s) {
-  for (char& c : s)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return s;
-}
 
 const char* firstOf(const std::string& text, std::initializer_list<const char*> words) {
   for (const char* word : words)
@@ -68,14 +63,14 @@ struct ProductName {
 /// ("MRE": products by image type). Both write maps of the same words; nothing is taken from private scale factors.
 /// True where one applies.
 bool setVendorRole(Series& s, const ImageHeader& h) {
-  const std::string maker = lower(h.manufacturer);
+  const std::string maker = lowerCase(h.manufacturer);
   const char* vendor = maker.find("siemens") != std::string::npos   ? "Siemens"
                        : maker.find("philips") != std::string::npos ? "Philips"
                                                                     : nullptr;
   if (vendor == nullptr) return false;
-  const std::string description = lower(s.description);
-  const std::string type = lower(h.imageType);
-  const std::string sequence = lower(h.sequenceName);
+  const std::string description = lowerCase(s.description);
+  const std::string type = lowerCase(h.imageType);
+  const std::string sequence = lowerCase(h.sequenceName);
   if (firstOf(description + "\\" + type + "\\" + sequence, {"mre", "elasto", "stiff"}) == nullptr && h.step.time < 0)
     return false;
   static constexpr ProductName products[] = {
@@ -111,8 +106,8 @@ bool setVendorRole(Series& s, const ImageHeader& h) {
 }
 
 void setByDescription(Series& s, const ImageHeader& h) {
-  const std::string description = lower(s.description);
-  const std::string type = lower(h.imageType);
+  const std::string description = lowerCase(s.description);
+  const std::string type = lowerCase(h.imageType);
   const std::string all = description + "\\" + type;
   const auto because = [&](const char* word) {
     return std::string(description.find(word) != std::string::npos ? "series description" : "image type") + " holds '" +
@@ -192,7 +187,7 @@ std::vector<std::string> applyRoles(ScanResult& scan, const RoleOverrides& overr
 }
 
 void setRoles(std::vector<Series>& volumes, const ImageHeader& header) {
-  const std::string sequence = lower(header.sequenceName);
+  const std::string sequence = lowerCase(header.sequenceName);
   const bool geMre = sequence.find("epimre") != std::string::npos || sequence.find("fgremre") != std::string::npos;
   for (Series& s : volumes) {
     if (s.colour) {

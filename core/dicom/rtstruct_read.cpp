@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "dicom/detail/attributes.h"
+#include "dicom/detail/naming.h"
 #include "dicom/detail/parsed_objects.h"
 #include "dicom/reader_process.h"
 
@@ -167,18 +168,11 @@ StructureSet parseStructures(const ByteSource& source, const FileLayout& layout)
 }  // namespace detail
 
 StructureSet readRtStruct(const std::filesystem::path& file) {
-  const std::string which = "'" + file.filename().string() + "' ";
-  try {
+  return detail::naming(file, [&]() -> StructureSet {
     ByteSource source(file);
     if (const auto layout = plainLayout(source)) return detail::parseStructures(source, *layout);
     return IsolatedFile(file).structures();
-  } catch (const RefusedFile& e) {
-    throw BadInput(which + e.reason);
-  } catch (const BadInput& e) {
-    throw BadInput(which + e.what());
-  } catch (const std::bad_alloc&) {
-    throw BadInput(which + "does not fit into memory");
-  }
+  });
 }
 
 }  // namespace glisson::dicom

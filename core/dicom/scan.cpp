@@ -3,6 +3,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "dicom/archive.h"
 #include "dicom/directory.h"
 #include "dicom/image_header.h"
@@ -18,12 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t maxFiles = 200'000;
 constexpr int maxFolderDepth = 64;
-
-std::string lower(std::string s) {
-  for (char& c : s)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return s;
-}
 
 /// Collects the regular files below a folder, in order of their names, and says why the rest is left out.
 class FolderWalk {
@@ -121,7 +116,7 @@ ScanResult scanFiles(const std::vector<fs::path>& files, ScanResult result, cons
     if (n % 16 == 0)
       progress.report(static_cast<double>(n) / static_cast<double>(files.size()), "reading image headers");
     try {
-      if (lower(file.filename().string()) == "dicomdir")
+      if (lowerCase(file.filename().string()) == "dicomdir")
         throw BadInput("is a DICOMDIR index; the files are read directly");
       ImageHeader header = readHeaderSafely(file);
       bySeries[header.seriesUid].push_back(std::move(header));
@@ -193,7 +188,7 @@ ScanResult scan(const fs::path& path, const Progress& progress) {
     return scanFiles(walk.files, std::move(result), progress);
   }
   if (fs::is_regular_file(status) && looksLikeZip(path)) return scanArchive(path, progress);
-  if (lower(path.filename().string()) != "dicomdir") return scanFiles({path}, std::move(result), progress);
+  if (lowerCase(path.filename().string()) != "dicomdir") return scanFiles({path}, std::move(result), progress);
   std::vector<fs::path> files;
   try {
     files = listedFiles(path, result.skipped);

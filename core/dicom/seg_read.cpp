@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "dicom/detail/attributes.h"
+#include "dicom/detail/naming.h"
 #include "dicom/detail/packed_frames.h"
 #include "dicom/detail/parsed_objects.h"
 #include "dicom/reader_process.h"
@@ -100,8 +101,7 @@ SegmentationSet assembled(SegHeader h, std::uint64_t fileBytes,
 }  // namespace
 
 SegmentationSet readSegmentation(const std::filesystem::path& file) {
-  const std::string which = "'" + file.filename().string() + "' ";
-  try {
+  return detail::naming(file, [&]() -> SegmentationSet {
     ByteSource source(file);
     if (const auto layout = plainLayout(source)) {
       SegHeader h = detail::parseSegHeader(source, *layout);
@@ -113,13 +113,7 @@ SegmentationSet readSegmentation(const std::filesystem::path& file) {
     return assembled(std::move(h), source.size(), [&isolated, pixels = h.pixels()](std::size_t n) {
       return isolated.frame(static_cast<int>(n), pixels);
     });
-  } catch (const RefusedFile& e) {
-    throw BadInput(which + e.reason);
-  } catch (const BadInput& e) {
-    throw BadInput(which + e.what());
-  } catch (const std::bad_alloc&) {
-    throw BadInput(which + "does not fit into memory");
-  }
+  });
 }
 
 bool isSegmentation(const std::filesystem::path& file) {

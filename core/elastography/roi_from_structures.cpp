@@ -4,16 +4,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/text.h"
+#include "roi/polygon.h"
 
 namespace glisson::elastography {
 namespace {
-
-/// ASCII lower case; bytes beyond stay as they are, whatever the locale.
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
 
 std::string names(const dicom::StructureSet& set) {
   std::string list;
@@ -24,23 +19,13 @@ std::string names(const dicom::StructureSet& set) {
 const dicom::Structure& choose(const dicom::StructureSet& set, const std::string& name) {
   std::vector<const dicom::Structure*> fit;
   for (const dicom::Structure& s : set.structures)
-    if (name.empty() ? lower(s.name).find("liver") != std::string::npos : lower(s.name) == lower(name))
+    if (name.empty() ? lowerCase(s.name).find("liver") != std::string::npos : lowerCase(s.name) == lowerCase(name))
       fit.push_back(&s);
   if (name.empty() && fit.empty() && set.structures.size() == 1) fit.push_back(&set.structures.front());
   if (fit.size() == 1) return *fit.front();
   const std::string wanted = name.empty() ? "with 'liver' in its name" : "called '" + name.substr(0, 64) + "'";
   throw BadInput("the structure set has " + std::to_string(fit.size()) + " structures " + wanted +
                  "; say which one to take. There are: " + names(set));
-}
-
-Eigen::Matrix3Xd cleaned(const Eigen::Matrix3Xd& points) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index v = 0; v < points.cols(); ++v)
-    if (kept.empty() || points.col(v) != points.col(kept.back())) kept.push_back(v);
-  while (kept.size() > 1 && points.col(kept.front()) == points.col(kept.back())) kept.pop_back();
-  Eigen::Matrix3Xd result(3, static_cast<Eigen::Index>(kept.size()));
-  for (std::size_t v = 0; v < kept.size(); ++v) result.col(static_cast<Eigen::Index>(v)) = points.col(kept[v]);
-  return result;
 }
 
 }  // namespace
@@ -53,7 +38,7 @@ roi::ContourStack roiFromStructures(const dicom::StructureSet& structures, const
   result.seriesUid = structures.referencedSeriesUid;
   for (const dicom::StructureContour& contour : structure.contours) {
     roi::Polygon polygon;
-    polygon.points_lps_mm = cleaned(contour.points_lps_mm);
+    polygon.points_lps_mm = roi::distinctRing(contour.points_lps_mm);
     polygon.sopInstanceUid = contour.referencedSopInstanceUid;
     if (polygon.points_lps_mm.cols() >= 3) result.polygons.push_back(std::move(polygon));
   }

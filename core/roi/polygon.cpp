@@ -31,7 +31,15 @@ bool meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vecto
          (s4 == 0 && between(c, d, b));
 }
 
-/// Ring without repeated neighbours.
+double distanceToSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d d = b - a;
+  const double length2 = d.squaredNorm();
+  const double t = length2 > 0.0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - t * d).norm();
+}
+
+}  // namespace
+
 Eigen::Matrix3Xd distinctRing(const Eigen::Matrix3Xd& points) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
@@ -41,15 +49,6 @@ Eigen::Matrix3Xd distinctRing(const Eigen::Matrix3Xd& points) {
   for (std::size_t i = 0; i < kept.size(); ++i) ring.col(static_cast<Eigen::Index>(i)) = points.col(kept[i]);
   return ring;
 }
-
-double distanceToSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const Eigen::Vector3d d = b - a;
-  const double length2 = d.squaredNorm();
-  const double t = length2 > 0.0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - t * d).norm();
-}
-
-}  // namespace
 
 bool selfCrosses(const Polygon& polygon) {
   Polygon ring = polygon;

@@ -7,6 +7,9 @@
 
 namespace glisson::roi {
 
+/// Vertices of a closed polygon (3 x n) without those equal to the one before, the last before the first included.
+Eigen::Matrix3Xd distinctRing(const Eigen::Matrix3Xd& points);
+
 /// Whether two edges of the polygon meet anywhere else than at the vertex that neighbours share (crossing, touching, or
 /// running over each other). Judged in the polygon's own plane.
 bool selfCrosses(const Polygon& polygon);
