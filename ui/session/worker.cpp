@@ -5,7 +5,23 @@
 
 #include "base/error.h"
 
+#ifdef __linux__
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
 namespace glisson::session {
+
+namespace {
+
+/// The window and what paints it come first. On Linux niceness belongs to a thread, and those it starts take it over.
+void standBackForTheWindow() {
+#ifdef __linux__
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), 5);
+#endif
+}
+
+}  // namespace
 
 Worker::Worker(QObject* parent) : QObject(parent) {}
 
@@ -21,6 +37,7 @@ void Worker::start(Job job, Done done) {
   busy_ = true;
   clock_.start();
   thread_ = std::jthread([this, job = std::move(job), done = std::move(done)](std::stop_token stop) {
+    standBackForTheWindow();
     const Progress progress(
         [this](double fraction, const std::string& what) {
           const std::lock_guard lock(mutex_);

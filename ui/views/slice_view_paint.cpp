@@ -1,12 +1,13 @@
 // How a slice view draws: image, hatching, contours, cursor, letters and bars.
 #include <QPainter>
-#include <QPainterPath>
 #include <QPixmapCache>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "views/colour_map.h"
+#include "views/line_work.h"
 #include "views/slice_view.h"
 
 namespace glisson::views {
@@ -35,25 +36,6 @@ QPolygonF toScreen(const Eigen::Matrix3Xd& points, const tools::SlicePlane& plan
   return polygon;
 }
 
-/// A line that reads on bright and on dark: a dark halo under it.
-void strokeWithHalo(QPainter& painter, const QPainterPath& path, const QColor& colour, double width, bool dashed) {
-  painter.setBrush(Qt::NoBrush);
-  painter.setPen(QPen(QColor(0, 0, 0, 150), width + 2.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  painter.drawPath(path);
-  QPen pen(colour, width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin);
-  if (dashed) pen.setDashPattern({4.0, 3.5});
-  painter.setPen(pen);
-  painter.drawPath(path);
-}
-
-QPainterPath pathOf(const QPolygonF& points, bool closed) {
-  QPainterPath path;
-  if (points.isEmpty()) return path;
-  path.addPolygon(points);
-  if (closed) path.closeSubpath();
-  return path;
-}
-
 void drawHandle(QPainter& painter, const QPointF& at, const QColor& colour, bool strong) {
   const double r = strong ? 4.5 : 3.0;
   painter.setPen(QPen(QColor(0, 0, 0, 190), 1.2));
@@ -61,12 +43,14 @@ void drawHandle(QPainter& painter, const QPointF& at, const QColor& colour, bool
   painter.drawRect(QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r));
 }
 
-/// Text that reads on bright and on dark. Stroking glyphs is slow, so each text is drawn once and kept as a picture.
+/// Text that reads on bright and on dark: dark copies of it all around make its halo. Each text is drawn once and kept
+/// as a picture; stroking the outlines of its glyphs would take ten times as long.
 void textWithHalo(QPainter& painter, const QPointF& at, const QString& text, const QColor& colour) {
   const double ratio = painter.device()->devicePixelRatioF();
   const QString key = QStringLiteral("halo|%1|%2|%3|%4").arg(text, painter.font().key(), colour.name()).arg(ratio);
   const QFontMetricsF metrics(painter.font());
-  constexpr double margin = 4.0;
+  constexpr double margin = 4.0, halo_px = 1.5;
+  constexpr int copies = 12;
   QPixmap picture;
   if (!QPixmapCache::find(key, &picture)) {
     const QSizeF size(metrics.horizontalAdvance(text) + 2.0 * margin, metrics.height() + 2.0 * margin);
@@ -74,11 +58,18 @@ void textWithHalo(QPainter& painter, const QPointF& at, const QString& text, con
     picture.setDevicePixelRatio(ratio);
     picture.fill(Qt::transparent);
     QPainter on(&picture);
-    on.setRenderHint(QPainter::Antialiasing);
-    QPainterPath path;
-    path.addText({margin, margin + metrics.ascent()}, painter.font(), text);
-    on.strokePath(path, QPen(QColor(0, 0, 0, 170), 3.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-    on.fillPath(path, colour);
+    on.setFont(painter.font());
+    const QPointF origin(margin, margin + metrics.ascent());
+    on.setPen(Qt::black);
+    for (int i = 0; i < copies; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / copies;
+      on.drawText(origin + halo_px * QPointF(std::cos(angle), std::sin(angle)), text);
+    }
+    on.setCompositionMode(QPainter::CompositionMode_DestinationIn);
+    on.fillRect(QRectF(QPointF(), size), QColor(0, 0, 0, 170));
+    on.setCompositionMode(QPainter::CompositionMode_SourceOver);
+    on.setPen(colour);
+    on.drawText(origin, text);
     on.end();
     QPixmapCache::insert(key, picture);
   }
@@ -168,6 +159,8 @@ void SliceView::paintContours(QPainter& painter) const {
   for (const roi::Polygon& polygon : contours_->polygons)
     if (!tool_ && shown.holds(polygon)) nearest_mm = std::min(nearest_mm, offPlane_mm(polygon));
   const std::optional<tools::Hit> hover = tool_ ? tool_->hover() : std::nullopt;
+  LineWork lines(rect());
+  QList<std::pair<QPointF, std::pair<QColor, bool>>> handles;
   for (std::size_t p = 0; p < contours_->polygons.size(); ++p) {
     const roi::Polygon& polygon = contours_->polygons[p];
     if (!shown.holds(polygon)) continue;
@@ -183,23 +176,26 @@ void SliceView::paintContours(QPainter& painter) const {
                           : polygon.exclude ? excludedColour
                           : draft           ? draftColour
                                             : acceptedColour;
-    const QPainterPath path = pathOf(outline, true);
     if (selected) {
       QColor wash = colour;
       wash.setAlpha(28);
-      painter.fillPath(path, wash);
+      painter.setPen(Qt::NoPen);
+      painter.setBrush(wash);
+      painter.drawPolygon(outline);
     }
     const bool hovered = hover && hover->polygon == p && hover->kind != tools::Hit::Kind::Inside;
-    strokeWithHalo(painter, path, colour, selected || hovered ? 2.0 : 1.5, !accepted || crossing);
+    lines.add(outline, true, colour, selected || hovered ? 2.0 : 1.5, !accepted || crossing);
     if (!selected && !hovered) continue;
     for (int v = 0; v < outline.size(); ++v) {
       const auto& chosen = tool_->selectedVertices();
       const bool strong =
           (selected && std::find(chosen.begin(), chosen.end(), v) != chosen.end()) ||
           (hover && hover->polygon == p && hover->kind == tools::Hit::Kind::Vertex && hover->vertex == v);
-      drawHandle(painter, outline[v], colour, strong);
+      handles.append({outline[v], {colour, strong}});
     }
   }
+  lines.paint(painter);
+  for (const auto& [at, look] : handles) drawHandle(painter, at, look.first, look.second);
   paintExtras(painter, shown);
   if (tool_) paintOutlineInWork(painter, shown);
 }
@@ -214,12 +210,11 @@ std::optional<QPointF> SliceView::seenAt(const Eigen::Vector3d& p_lps) const {
 
 // A second reader, the inner region, distances, and the sculpting disc.
 void SliceView::paintExtras(QPainter& painter, const tools::SlicePlane& shown) const {
+  LineWork lines(rect());
   if (second_)
     for (const roi::Polygon& polygon : second_->polygons)
-      if (shown.holds(polygon))
-        strokeWithHalo(painter, pathOf(toScreen(polygon.points_lps_mm, shown), true), secondColour, 1.4, true);
+      if (shown.holds(polygon)) lines.add(toScreen(polygon.points_lps_mm, shown), true, secondColour, 1.4, true);
   if (inner_ && inner_->grid.sameGeometry(shown.grid)) {
-    QPainterPath border;
     const auto corner = [&](double i, double j) {
       return point(shown.toPixel(shown.grid.indexToLps({i, j, 1.0 * slice_})));
     };
@@ -228,17 +223,20 @@ void SliceView::paintExtras(QPainter& painter, const tools::SlicePlane& shown) c
     };
     for (int j = 0; j <= shown.grid.size.y(); ++j)
       for (int i = 0; i <= shown.grid.size.x(); ++i) {
-        if (in(i, j) != in(i - 1, j)) border.moveTo(corner(i - 0.5, j - 0.5)), border.lineTo(corner(i - 0.5, j + 0.5));
-        if (in(i, j) != in(i, j - 1)) border.moveTo(corner(i - 0.5, j - 0.5)), border.lineTo(corner(i + 0.5, j - 0.5));
+        const QPointF here = corner(i - 0.5, j - 0.5);
+        if (in(i, j) != in(i - 1, j)) lines.add({{here, corner(i - 0.5, j + 0.5)}}, false, ink, 1.2);
+        if (in(i, j) != in(i, j - 1)) lines.add({{here, corner(i + 0.5, j - 0.5)}}, false, ink, 1.2);
       }
-    strokeWithHalo(painter, border, ink, 1.2, false);
   }
+  lines.paint(painter);
   if (measurements_) {
     const auto draw = [&](const tools::Distance& d) {
       const double k = shown.grid.lpsToIndex(d.from_lps_mm).z();
       if (std::lround(k) != slice_) return;
       const QPointF a = point(shown.toPixel(d.from_lps_mm)), b = point(shown.toPixel(d.to_lps_mm));
-      strokeWithHalo(painter, pathOf(QPolygonF({a, b}), false), measureColour, 1.6, false);
+      LineWork line(rect());
+      line.add({{a, b}}, false, measureColour, 1.6);
+      line.paint(painter);
       for (const QPointF& end : {a, b}) drawHandle(painter, end, measureColour, false);
       textWithHalo(painter, (a + b) / 2.0 + QPointF(8.0, -8.0), QString::number(d.length_mm(), 'f', 1) + tr(" mm"),
                    measureColour);
@@ -267,7 +265,9 @@ void SliceView::paintOutlineInWork(QPainter& painter, const tools::SlicePlane& s
   else if (tool_->pointer())
     line << point(shown.toPixel(*tool_->pointer()));
   const QColor colour = tool_->crosses() ? crossingColour : draftColour;
-  strokeWithHalo(painter, pathOf(line, false), colour, 1.8, tool_->crosses());
+  LineWork lines(rect());
+  lines.add(line, false, colour, 1.8, tool_->crosses());
+  lines.paint(painter);
   if (vertices.size() < 400)
     for (const QPointF& v : vertices) drawHandle(painter, v, colour, false);
   painter.setPen(QPen(tool_->closes() ? QColor(Qt::white) : colour, tool_->closes() ? 2.5 : 1.2));
@@ -316,11 +316,10 @@ void SliceView::paintScaleBar(QPainter& painter) const {
     length_mm /= length_mm == 50.0 || length_mm == 5.0 ? 2.5 : 2.0;
   const double length_px = length_mm * zoom_px_mm_;
   const QPointF right(width() - (volume_.stiffness ? 84.0 : 16.0), height() - 16.0);
-  QPainterPath bar(right - QPointF(length_px, 5.0));
-  bar.lineTo(right - QPointF(length_px, 0.0));
-  bar.lineTo(right);
-  bar.lineTo(right - QPointF(0.0, 5.0));
-  strokeWithHalo(painter, bar, ink, 1.5, false);
+  const QPointF left = right - QPointF(length_px, 0.0), up(0.0, -5.0);
+  LineWork bar(QRectF(left + up, right));
+  bar.add({{left + up, left, right, right + up}}, false, ink, 1.5);
+  bar.paint(painter);
   const QString text = QString::number(length_mm) + QStringLiteral(" mm");
   const double w = painter.fontMetrics().horizontalAdvance(text);
   textWithHalo(painter, right - QPointF((length_px + w) / 2.0, 8.0), text, ink);
