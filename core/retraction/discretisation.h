@@ -29,10 +29,12 @@ retraction::Setup held(const retraction::Setup& setup, const retraction::Model& 
                        const retraction::Result& result);
 
 /// Estimate from two grids, cells and twice the cells: |u_h − u_2h|, which is the error of u_h where it falls with
-/// first order, as staircase surfaces and clamped edges make it, and up to three times the error where it falls faster.
+/// first order, as staircase surfaces and clamped edges make it, and (2^p − 1) times the error where it falls with order
+/// p: up to three times for linear shape functions, up to seven times for quadratic ones.
 /// A body of at most 20,000 voxels that cannot be merged two by two without changing its shape is split instead:
 /// 2 |u_h − u_h/2|, the same to first order. Delaunay tetrahedra that fail their gates at twice the edge are made
-/// 1.75 or 1.5 times as large, and the difference divided by ratio − 1. Below the size of what bends, either may fall short of the error.
+/// 1.75 or 1.5 times as large, and the difference divided by ratio − 1. Where cells are not smaller than what bends, the
+/// estimate falls short of the error, that of linear tetrahedra by far (a plate as thick as one cell: a thirtieth).
 /// For a mesh-free result the distance from the voxel FEM on its own cells is added. Costs one solve with an eighth of
 /// the cells (mesh-free: one more with all of them). Throws Cancelled; whatever else goes wrong on the coarse grid is
 /// told in the note.
