@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "base/error.h"
@@ -46,18 +47,27 @@ bool sameVoxels(const image::Grid& a, const image::Grid& b) {
   return true;
 }
 
-void finish(MappedRoi& result, const image::Grid& mre) {
-  if (image::count(result.mask) == 0) {
-    std::ostringstream why;
-    why << "the region of interest holds no voxel of the elastogram: ";
-    if (result.planeDistance_mm > 0.5 * mre.spacing_mm.z())
-      why << "their nearest slices are " << result.planeDistance_mm << " mm apart";
-    else
-      why << "it lies beside it in the same slices";
-    why << "; check that both belong to the same examination";
-    if (!result.warnings.empty()) why << "; " << result.warnings.front();
-    throw BadInput(why.str());
-  }
+/// Why no voxel was met, and what to do. nearest_mm: from the region's slices to the elastogram's; slice_mm: how thick
+/// the region's own slices are.
+[[noreturn]] void refuse(const MappedRoi& result, const image::Grid& mre, double nearest_mm, double slice_mm) {
+  std::ostringstream why;
+  why << "the region of interest holds no voxel of the elastogram: ";
+  if (nearest_mm > 0.5 * mre.spacing_mm.z() * (1.0 + 1e-6))
+    why << "their nearest slices are " << nearest_mm << " mm apart; check that both belong to the same examination";
+  else if (result.coverage <= 0.0)
+    why << "it lies beside it in the same slices; check that both belong to the same examination";
+  else if (nearest_mm > 0.5 * slice_mm)
+    why << "it lies between two elastography slices, " << nearest_mm
+        << " mm from the nearest; outline the image slice at the height of an elastography slice, or several slices "
+           "on both sides of one";
+  else
+    why << "it is too small to hold the centre of a voxel (" << mre.spacing_mm.x() << " mm); draw it larger";
+  if (!result.warnings.empty()) why << "; " << result.warnings.front();
+  throw BadInput(why.str());
+}
+
+void finish(MappedRoi& result, const image::Grid& mre, double nearest_mm, double slice_mm) {
+  if (image::count(result.mask) == 0) refuse(result, mre, nearest_mm, slice_mm);
   const double half_mm = 0.5 * mre.spacing_mm.z();
   if (result.planeDistance_mm > half_mm * (1.0 + 1e-6)) {
     std::ostringstream text;
@@ -95,10 +105,19 @@ void sampleSlice(const image::Mask& source, int k, image::Mask& target) {
     }
 }
 
-double planeDistance(const std::vector<double>& k, const image::Grid& mre) {
-  double largest_mm = 0.0;
-  for (const double height : k) largest_mm = std::max(largest_mm, toNearestSlice_mm(height, mre));
-  return largest_mm;
+struct Distances {
+  double least_mm = 0.0, largest_mm = 0.0;
+};
+
+/// Of slices at these heights (at least one) from the elastogram's slices.
+Distances planeDistances(const std::vector<double>& k, const image::Grid& mre) {
+  Distances d{std::numeric_limits<double>::max(), 0.0};
+  for (const double height : k) {
+    const double here_mm = toNearestSlice_mm(height, mre);
+    d.least_mm = std::min(d.least_mm, here_mm);
+    d.largest_mm = std::max(d.largest_mm, here_mm);
+  }
+  return d;
 }
 
 }  // namespace
@@ -125,7 +144,8 @@ MappedRoi mapRoi(const roi::ContourStack& contours, const std::optional<image::G
   std::vector<double> height;  // of every counted polygon
   for (const std::size_t p : counted)
     height.push_back(mreGrid.lpsToIndex(contours.polygons[p].points_lps_mm.rowwise().mean()).z());
-  result.planeDistance_mm = planeDistance(height, mreGrid);
+  const Distances distances = planeDistances(height, mreGrid);
+  result.planeDistance_mm = distances.largest_mm;
 
   if (!mriGrid) {
     result.mask = roi::rasterise(contours, mreGrid);
@@ -173,6 +193,17 @@ MappedRoi mapRoi(const roi::ContourStack& contours, const std::optional<image::G
       roi::fillSlice(result.mask, k, contours, members);  // in-plane position along the MRE normal
       ++result.coincidentSlices;
     }
+    // Few planes between two elastography slices: no voxel centre lies in an MRI slice that holds the region, though
+    // the planes are within the half slice that counts as the same place.
+    if (image::count(result.mask) == 0 && parallel &&
+        distances.least_mm <= 0.5 * mreGrid.spacing_mm.z() * (1.0 + 1e-6)) {
+      const auto slices = roi::polygonsPerSlice(contours, mreGrid);
+      for (int k = 0; k < mreGrid.size.z(); ++k) {
+        const auto& members = slices[static_cast<std::size_t>(k)];
+        roi::fillSlice(result.mask, k, contours, members);
+        result.coincidentSlices += members.empty() ? 0 : 1;
+      }
+    }
   }
   if (!contours.frameOfReferenceUid.empty() && !mreFrameOfReferenceUid.empty() &&
       contours.frameOfReferenceUid != mreFrameOfReferenceUid)
@@ -180,7 +211,7 @@ MappedRoi mapRoi(const roi::ContourStack& contours, const std::optional<image::G
         "the region of interest and the elastogram have different frames of reference; confirm that they fit");
   if (!parallel)
     result.warnings.push_back("the slices the region was drawn on and the elastography slices are not parallel");
-  finish(result, mreGrid);
+  finish(result, mreGrid, distances.least_mm, mriGrid ? mriGrid->spacing_mm.z() : mreGrid.spacing_mm.z());
   return result;
 }
 
@@ -195,7 +226,8 @@ MappedRoi mapRoi(const image::Mask& roi, const image::Grid& mreGrid) {
   result.mask = image::resampleNearest(roi, mreGrid);
   result.coverage = coverageOf(roi, mreGrid);
   // Of a mask with thinner slices than the elastogram, only distances beyond the outer slices say something.
-  result.planeDistance_mm = planeDistance(heights(roi, mreGrid), mreGrid);
+  const Distances distances = planeDistances(heights(roi, mreGrid), mreGrid);
+  result.planeDistance_mm = distances.largest_mm;
   const std::size_t perSlice = mreGrid.linear(0, 0, 1);
   for (std::size_t k = 0; k < static_cast<std::size_t>(mreGrid.size.z()); ++k)
     for (std::size_t v = k * perSlice; v < (k + 1) * perSlice; ++v)
@@ -203,7 +235,7 @@ MappedRoi mapRoi(const image::Mask& roi, const image::Grid& mreGrid) {
         ++result.sampledSlices;
         break;
       }
-  finish(result, mreGrid);
+  finish(result, mreGrid, distances.least_mm, roi.grid.spacing_mm.z());
   return result;
 }
 

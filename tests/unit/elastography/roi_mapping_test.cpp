@@ -170,6 +170,51 @@ TEST(MapRoi, RefusesWhatDoesNotMeet) {
   EXPECT_THROW(mapRoi(image::Mask(anatomy), mre(0.0, 2)), BadInput);
 }
 
+TEST(MapRoi, ALonePlaneBetweenTwoSlicesCountsOnTheNearest) {
+  const image::Grid anatomy = mri(2.0, 30), elastogram = mre(10.0, 3);  // MRE at 10, 20, 30 mm
+  for (const int k : {6, 8, 9, 11, 12, 17}) {                           // 12, 16, 18, 22, 24, 34 mm
+    const MappedRoi r = mapRoi(circles(anatomy, {1.0 * k}), anatomy, elastogram);
+    const int nearest = std::clamp(static_cast<int>(std::lround(0.2 * k)) - 1, 0, 2);
+    EXPECT_EQ(misjudged(r.mask, nearest, anatomy, 0.01), 0) << k;
+    image::Mask others = r.mask;
+    for (int j = 0; j < elastogram.size.y(); ++j)
+      for (int i = 0; i < elastogram.size.x(); ++i) others.at(i, j, nearest) = 0;
+    EXPECT_EQ(image::count(others), 0u) << k;
+    EXPECT_NEAR(r.planeDistance_mm, std::abs(2.0 * k - 10.0 * (nearest + 1)), 1e-9);
+    EXPECT_TRUE(r.warnings.empty()) << "within half a slice nothing is odd";
+  }
+  // Two planes between the same two slices: each counts on its own side.
+  EXPECT_EQ(mapRoi(circles(anatomy, {6, 9}), anatomy, elastogram).coincidentSlices, 2);
+  // More than half a slice away there is no number, and the distance is told.
+  try {
+    mapRoi(circles(anatomy, {19}), anatomy, elastogram);
+    FAIL() << "8 mm above the last slice";
+  } catch (const BadInput& e) {
+    EXPECT_THAT(e.what(), HasSubstr("nearest slices are 8 mm apart"));
+  }
+}
+
+TEST(MapRoi, AMaskBetweenTwoSlicesIsToldSo) {
+  const image::Grid anatomy = mri(2.0, 30), elastogram = mre(10.0, 3);
+  try {
+    mapRoi(roi::rasterise(circles(anatomy, {7}), anatomy), elastogram);  // 14 mm
+    FAIL() << "no voxel centre lies in that slice";
+  } catch (const BadInput& e) {
+    EXPECT_THAT(e.what(), HasSubstr("between two elastography slices, 4 mm from the nearest"));
+  }
+  image::Mask dot(anatomy);
+  dot.at(57, 55, 10) = 1;  // one voxel of 1.2 mm at the height of a slice, between the centres of 1.64 mm voxels
+  dot.grid.origin_lps_mm -= 0.6 * dot.grid.direction.col(0);
+  const Eigen::Vector3d there = elastogram.lpsToIndex(dot.grid.indexToLps({57, 55, 10}));
+  ASSERT_GT(std::abs(there.x() - std::round(there.x())) * 1.64, 0.6) << "the voxel holds a centre";
+  try {
+    mapRoi(dot, elastogram);
+    FAIL() << "no voxel centre lies in that voxel";
+  } catch (const BadInput& e) {
+    EXPECT_THAT(e.what(), HasSubstr("too small"));
+  }
+}
+
 TEST(RoiFromStructures, FindsTheLiver) {
   dicom::StructureSet set;
   set.frameOfReferenceUid = "1.2";
