@@ -53,6 +53,7 @@ class Cohort(unittest.TestCase):
         truth = [json.loads((self.patients / n / "truth.json").read_text())["shear_kPa"]
                  for n in ("Doefeather^Jane", "Zoeblossom^Zelda")]
         measured = [c["shear_kPa"] for c in r["cases"] if c["status"] == "done"]
+        self.assertEqual(len(measured), len(truth))
         for t, m in zip(truth, measured):
             self.assertAlmostEqual(t, m, delta=0.02 * t)
         over = sum(m > 3.1 for m in measured) / len(measured)

@@ -1,5 +1,6 @@
 #include "mechanics/meshfree.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -232,7 +233,9 @@ TEST(Meshfree, DuplicateAndStraySitesAreLeftOutWithANote) {
     bad.sites_m.col(n + 2) = Vector3d(1.0, 0, 0);
     const MeshfreeModel model(p, bad);
     EXPECT_EQ(model.frames(), n);
-    EXPECT_GE(model.notes().size(), 2u);
+    EXPECT_THAT(model.notes(),
+                testing::IsSupersetOf({testing::HasSubstr("1 mesh-free sites left out: they lie outside"),
+                                       testing::HasSubstr("2 mesh-free sites left out: each lies on")}));
     EXPECT_EQ(model.solveStatic().u_m, clean.u_m);
   }
   MeshfreeOptions nowhere;

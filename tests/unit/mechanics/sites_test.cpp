@@ -60,6 +60,7 @@ TEST(Sites, SitesOfACurvedBodyLieInside) {
   });
   const VoxelMesh mesh(body);
   const Sites sites = placeSites(mesh, options(12));
+  EXPECT_EQ(sites.count(), 12);
   for (int s = 0; s < sites.count(); ++s) {
     const Eigen::Vector3i c = sites.position_m.col(s).cwiseQuotient(mesh.h_m()).cast<int>();
     EXPECT_GT(body.E_Pa[body.cell(c.x(), c.y(), c.z())], 0.0) << "site " << s;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
 #include "phantom/shape.h"
 #include "phantom/torso.h"
@@ -86,11 +87,14 @@ TEST_F(Vessels, AreBrighterThanTheLiverAroundThem) {
       ++n;
     }
   liver /= static_cast<double>(n);
+  std::set<std::string> seen;
   for (const VesselBranch& b : branches()) {
     if (b.radius_mm < 3.0) continue;
+    seen.insert(b.name);
     const Eigen::Vector3d index = p.mri.grid.lpsToIndex(b.points_lps_mm[b.points_lps_mm.size() / 2]);
     EXPECT_GT(p.mri.at(index.array().round().cast<int>().matrix()), 1.3 * liver);
   }
+  EXPECT_EQ(seen, (std::set<std::string>{"hepatic", "portal"}));
 }
 
 TEST(VesselGrowth, FindsRoomForBothTreesInEveryLiver) {

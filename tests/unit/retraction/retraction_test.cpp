@@ -198,6 +198,8 @@ TEST(Regions, FacesFollowThePatientNotTheGrid) {
   Eigen::Matrix3d d;
   d << -1, 0, 0, 0, -1, 0, 0, 0, 1;  // a RAS file: the grid's x runs to the patient's right
   const Body body(box({3, 4, 5}, {2, 2, 2}, 6, 0.45, d));
+  EXPECT_EQ(body.faces(FaceRegion{"x-"}).size(), 4u * 5u);
+  EXPECT_EQ(body.faces(SurfaceRegion{"posterior"}).size(), 3u * 5u);
   for (const SurfaceFace* f : body.faces(FaceRegion{"x-"})) EXPECT_NEAR(f->centre_mm.x(), -6.0, 1e-9);
   for (const SurfaceFace* f : body.faces(SurfaceRegion{"posterior"})) EXPECT_NEAR(f->normal.y(), 1.0, 1e-12);
 }
