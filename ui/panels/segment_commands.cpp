@@ -78,10 +78,10 @@ bool SegmentPage::runOutline(Command command) {
       hand_ == Hand::Measure ? measure_.cancel() : key(ToolKey::Escape);
       return true;
     case Command::Split:
-      session_.apply(tool.split());
+      session_.apply(tool.split(mri_->plane()));
       return true;
     case Command::Trim:
-      session_.apply(tool.trim());
+      session_.apply(tool.trim(mri_->plane()));
       return true;
     case Command::Undo:
       session_.undo();

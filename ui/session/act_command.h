@@ -35,7 +35,7 @@ inline std::unique_ptr<commands::Command> commandOf(const tools::Act& act, const
                              : a.change == tools::PointsChange::Sculpt ? "sculpt"
                              : a.change == tools::PointsChange::Nudge  ? "nudge"
                                                                        : "delete vertices";
-          return std::make_unique<commands::ChangePoints>(contours, a.index, a.points_lps_mm, text);
+          return std::make_unique<commands::ChangePoints>(contours, a.index, a.points_lps_mm, text, a.toDraft);
         }
       },
       act);

@@ -29,6 +29,12 @@ QString nameOfAct(const std::string& text) {
   return text.empty() ? QString() : QCoreApplication::translate("commands", text.c_str());
 }
 
+QString inWords(const tools::Sentence& sentence) {
+  QString text = QCoreApplication::translate("tools", sentence.text);
+  for (const std::string& value : sentence.values) text = text.arg(QString::fromStdString(value));
+  return text;
+}
+
 }  // namespace
 
 Session::Session(QObject* parent) : QObject(parent), tool_(contours_) {
@@ -76,7 +82,7 @@ void Session::apply(const tools::Acts& acts) {
 }
 
 void Session::toolMoved() {
-  if (!tool_.message().empty()) emit message(QString::fromStdString(tool_.message()));
+  if (!tool_.message().empty()) emit message(inWords(tool_.message()));
   if (!tool_.dragging() && tool_.drawing().cols() != journalledVertices_) journal();
   const bool atWork = tool_.drawing().cols() >= 3 || tool_.preview().cols() > 0;
   if (atWork && !measureTimer_.isActive()) measureTimer_.start();
@@ -89,14 +95,14 @@ void Session::contoursTouched() {
   journal();
   failure_[static_cast<std::size_t>(Step::Segment)].clear();
   if (!measureTimer_.isActive()) measureTimer_.start();
-  if (!tool_.message().empty()) emit message(QString::fromStdString(tool_.message()));
+  if (!tool_.message().empty()) emit message(inWords(tool_.message()));
   emit contoursChanged();
   emit toolChanged();
   emit statusChanged();
 }
 
 void Session::undo() {
-  if (tool_.undoDrawing()) {
+  if (plane_ && tool_.undoDrawing(*plane_)) {
     toolMoved();
     return;
   }
@@ -109,7 +115,7 @@ void Session::undo() {
 }
 
 void Session::redo() {
-  if (tool_.redoDrawing()) {
+  if (plane_ && tool_.redoDrawing(*plane_)) {
     toolMoved();
     return;
   }
@@ -125,13 +131,13 @@ bool Session::canUndo() const {
   return tool_.state() == tools::ToolState::Drawing || undo_.canUndo();
 }
 bool Session::canRedo() const {
-  return undo_.canRedo();
+  return tool_.canRedoDrawing() || undo_.canRedo();
 }
 QString Session::undoText() const {
   return tool_.state() == tools::ToolState::Drawing ? tr("vertex") : nameOfAct(undo_.undoText());
 }
 QString Session::redoText() const {
-  return nameOfAct(undo_.redoText());
+  return tool_.canRedoDrawing() ? tr("vertex") : nameOfAct(undo_.redoText());
 }
 
 void Session::setShownPlane(const tools::SlicePlane& plane) {

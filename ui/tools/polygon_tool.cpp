@@ -32,7 +32,7 @@ bool PolygonTool::interpolated() const {
 }
 
 Acts PolygonTool::press(const Pointer& at, const SlicePlane& plane) {
-  message_.clear();
+  message_ = {};
   drag_ = Drag::Press;
   pressed_px_ = at.px;
   pressedModifiers_ = at.modifiers;
@@ -123,13 +123,10 @@ Acts PolygonTool::endDrag(Drag was, const Pointer& at, const SlicePlane& plane) 
     return closing || mode_ == ToolMode::Freehand ? close(plane, false) : Acts{};
   }
   if (was == Drag::Move || was == Drag::Sculpt) {
-    Acts acts;
     const bool sculpted = was == Drag::Sculpt;
-    if (preview_.cols() > 0 && !(sculpted && preview_ == contours_.polygons[*selected_].points_lps_mm))
-      acts.push_back(ChangePoints{*selected_, preview_, sculpted ? PointsChange::Sculpt : PointsChange::Move});
-    preview_.resize(3, 0);
-    asked_ = false;
-    return acts;
+    const Eigen::Matrix3Xd points = std::exchange(preview_, Eigen::Matrix3Xd(3, 0));
+    if (points.cols() == 0 || (sculpted && points == contours_.polygons[*selected_].points_lps_mm)) return {};
+    return changed(*selected_, points, sculpted ? PointsChange::Sculpt : PointsChange::Move, plane);
   }
   if (was == Drag::Box && selected_ && box_) {
     const Eigen::Array2d low = box_->from_px.cwiseMin(box_->to_px).array();
@@ -150,7 +147,7 @@ void PolygonTool::beginSculpt(const SlicePlane& plane) {
   const std::optional<std::size_t> target =
       selected_ && *selected_ < contours_.polygons.size() ? selected_ : nearestPolygon(pressed_px_, plane);
   if (!target) {
-    message_ = "There is no outline on this slice to sculpt.";
+    message_ = {say::nothingToSculpt, {}};
     drag_ = Drag::None;
     return;
   }

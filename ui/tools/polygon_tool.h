@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "roi/contour_stack.h"
+#include "tools/sentences.h"
 #include "tools/slice_plane.h"
 
 namespace glisson::tools {
@@ -56,6 +57,7 @@ struct ChangePoints {
   std::size_t index;
   Eigen::Matrix3Xd points_lps_mm;
   PointsChange change;
+  bool toDraft = false;  ///< the outline counted, and has to be accepted anew
 };
 struct ChangeState {
   std::size_t index;
@@ -107,16 +109,19 @@ class PolygonTool {
 
   // Acts on the selection; nothing where nothing is selected, with the reason as the message.
   Acts nudge(const Eigen::Vector2d& pixels, const SlicePlane& plane);  ///< image pixels to the right and down the view
-  Acts split();  ///< two vertices apart: cuts the outline in two there; else halves the selected edges
-  Acts trim();   ///< two vertices apart: cuts the smaller part off; else every second selected vertex goes
+  Acts split(
+      const SlicePlane& plane);  ///< two vertices apart: cuts the outline in two there; else halves the selected edges
+  Acts trim(const SlicePlane&
+                plane);  ///< two vertices apart: cuts the smaller part off; else every second selected vertex goes
   Acts setKind(bool exclude);
   void selectAll(const SlicePlane& plane);  ///< the selected outline as a whole, else the nearest of the slice
   void deselect() { select(std::nullopt); }
   /// Whole gestures that ended in a wish for the properties of an outline; asked once.
   std::optional<std::size_t> takePropertiesWish() { return std::exchange(properties_, std::nullopt); }
   /// Undo and redo while drawing: whole gestures of the outline in work. False where there is nothing of it to undo.
-  bool undoDrawing();
-  bool redoDrawing();
+  bool undoDrawing(const SlicePlane& plane);
+  bool redoDrawing(const SlicePlane& plane);
+  bool canRedoDrawing() const { return !future_.empty(); }
   /// After contours were changed by undo, redo or import: forgets what no longer exists.
   void contoursChanged();
   /// After a step that moved polygons to other places of the list: which one is selected now, as a whole.
@@ -142,7 +147,7 @@ class PolygonTool {
   std::optional<Eigen::Vector3d> brush() const { return mode_ == ToolMode::Sculpt ? pointer_ : std::nullopt; }
   bool dragging() const { return drag_ != Drag::None && drag_ != Drag::Press; }
   /// One sentence for the status line: a refusal, a question, a hint. Empty where there is nothing to say.
-  const std::string& message() const { return message_; }
+  const Sentence& message() const { return message_; }
 
  private:
   enum class Drag { None, Press, Freehand, Move, Box, Sculpt };
@@ -161,8 +166,11 @@ class PolygonTool {
   Acts click(const Pointer& at, const SlicePlane& plane);
   Acts close(const SlicePlane& plane, bool accept);
   Acts accept(const SlicePlane& plane);
-  Acts removeSelection();
-  std::string refusal(const Eigen::Matrix3Xd& points, const SlicePlane& plane) const;
+  Acts removeSelection(const SlicePlane& plane);
+  Acts changed(std::size_t index, Eigen::Matrix3Xd points, PointsChange change, const SlicePlane& plane);
+  Acts cutAlong(std::size_t index, Eigen::Matrix3Xd first, Eigen::Matrix3Xd second, const SlicePlane& plane);
+  bool crosses(const Eigen::Matrix3Xd& points, const SlicePlane& plane) const;
+  Sentence refusal(const Eigen::Matrix3Xd& points, const SlicePlane& plane, bool edit = false) const;
   roi::Polygon polygonOf(const SlicePlane& plane, roi::PolygonState state) const;
   Eigen::Matrix2Xd planePoints(const Eigen::Matrix3Xd& points, const SlicePlane& plane) const;
   void updateCrossing(const SlicePlane& plane);
@@ -180,7 +188,7 @@ class PolygonTool {
   std::vector<Eigen::Index> vertices_;
   Eigen::Matrix3Xd preview_;
   std::optional<Box> box_;
-  std::string message_;
+  Sentence message_;
   Drag drag_ = Drag::None;
   Eigen::Vector2d pressed_px_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d lastFreehand_px_ = Eigen::Vector2d::Zero();

@@ -49,9 +49,10 @@ Acts PolygonTool::click(const Pointer& at, const SlicePlane& plane) {
   future_.clear();
   addVertex(plane.toLps(at.px));
   if (insideAny)
-    message_ = contours_.polygons[pressedHit_->polygon].state == roi::PolygonState::Interpolated
-                   ? "Once accepted, this outline replaces the interpolated ones of the slice."
-                   : "An outline inside a region becomes a hole.";
+    message_ = {contours_.polygons[pressedHit_->polygon].state == roi::PolygonState::Interpolated
+                    ? say::replacesInterpolated
+                    : say::becomesHole,
+                {}};
   return {};
 }
 
@@ -61,12 +62,14 @@ Acts PolygonTool::clickHandle(const Pointer& at, const SlicePlane& plane) {
     const std::size_t index = pressedHit_->polygon;
     const Eigen::Matrix3Xd& points = contours_.polygons[index].points_lps_mm;
     if (pressedHit_->kind == Hit::Kind::Edge) {
-      select(index, {pressedHit_->vertex + 1});
-      return {
-          ChangePoints{index, withPoint(points, pressedHit_->vertex + 1, plane.toLps(at.px)), PointsChange::Insert}};
+      select(index);
+      Acts inserted =
+          changed(index, withPoint(points, pressedHit_->vertex + 1, plane.toLps(at.px)), PointsChange::Insert, plane);
+      if (!inserted.empty()) vertices_ = {pressedHit_->vertex + 1};
+      return inserted;
     }
     select(index, {pressedHit_->vertex});
-    return removeSelection();
+    return removeSelection(plane);
   }
   const Eigen::Index n = contours_.polygons[pressedHit_->polygon].points_lps_mm.cols();
   std::vector<Eigen::Index> clicked{pressedHit_->vertex};
@@ -95,10 +98,10 @@ Acts PolygonTool::doubleClick(const Pointer& at, const SlicePlane& plane) {
       clearDrawing();
       select(under->polygon, allOf(contours_.polygons[under->polygon].points_lps_mm));
       properties_ = under->polygon;
-      message_.clear();
+      message_ = {};
       return {};
     }
-    return points_.cols() < 3 ? Acts{} : close(plane, false);
+    return close(plane, false);  // or says what is missing
   }
   const std::optional<Hit> hit = hitTest(at.px, plane);
   if (state() == ToolState::Editing && hit && hit->polygon == *selected_) return accept(plane);
@@ -110,7 +113,7 @@ Acts PolygonTool::doubleClick(const Pointer& at, const SlicePlane& plane) {
 }
 
 Acts PolygonTool::rightClick(const Pointer& at, const SlicePlane& plane) {
-  message_.clear();
+  message_ = {};
   if (state() == ToolState::Drawing) return close(plane, false);
   const std::optional<Hit> hit = hitTest(at.px, plane);
   if (hit && selected_ != hit->polygon) {
@@ -122,7 +125,7 @@ Acts PolygonTool::rightClick(const Pointer& at, const SlicePlane& plane) {
 }
 
 Acts PolygonTool::key(ToolKey key, const SlicePlane& plane) {
-  message_.clear();
+  message_ = {};
   const ToolState now = state();
   switch (key) {
     case ToolKey::Enter:
@@ -150,17 +153,18 @@ Acts PolygonTool::key(ToolKey key, const SlicePlane& plane) {
       }
       return {};
     case ToolKey::Delete:
-      return now == ToolState::Drawing ? Acts{} : removeSelection();
+      return now == ToolState::Drawing ? Acts{} : removeSelection(plane);
     case ToolKey::Escape:
       if (now == ToolState::Drawing) {
         Acts parked = leaveSlice(plane);
+        message_ = {say::parked, {}};
         selected_ = contours_.polygons.size();  // the draft, once it is added: a second Esc discards it
         return parked;
       }
       if (now == ToolState::Editing && !interpolated()) {
         const std::size_t index = *selected_;
         select(std::nullopt);
-        message_ = "Draft discarded; undo brings it back.";
+        message_ = {say::discarded, {}};
         return {RemovePolygon{index}};
       }
       select(std::nullopt);
@@ -173,7 +177,7 @@ Acts PolygonTool::leaveSlice(const SlicePlane& plane) {
   Acts acts;
   if (points_.cols() > 0) {
     acts.push_back(AddPolygon{polygonOf(plane, roi::PolygonState::Draft)});
-    message_ = "Outline parked as a draft; click it to go on, Esc to discard.";
+    message_ = {say::parkedOnSlice, {std::to_string(plane.slice + 1)}};
   }
   drag_ = Drag::None;
   properties_.reset();
@@ -185,20 +189,22 @@ Acts PolygonTool::leaveSlice(const SlicePlane& plane) {
   return acts;
 }
 
-bool PolygonTool::undoDrawing() {
+bool PolygonTool::undoDrawing(const SlicePlane& plane) {
   if (state() != ToolState::Drawing || past_.empty()) return false;
   future_.push_back(points_);
   points_ = past_.back();
   past_.pop_back();
-  crosses_ = false;
+  updateCrossing(plane);
   return true;
 }
 
-bool PolygonTool::redoDrawing() {
+bool PolygonTool::redoDrawing(const SlicePlane& plane) {
   if (future_.empty()) return false;
+  select(std::nullopt);
   past_.push_back(points_);
   points_ = future_.back();
   future_.pop_back();
+  updateCrossing(plane);
   return true;
 }
 

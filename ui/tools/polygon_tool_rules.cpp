@@ -82,15 +82,15 @@ void PolygonTool::endFreehand(const SlicePlane& plane) {
 Acts PolygonTool::close(const SlicePlane& plane, bool acceptToo) {
   message_ = refusal(points_, plane);
   if (!message_.empty()) return {};
-  const bool crossing = crossesItself(planePoints(points_, plane), true);
+  const bool crossing = crosses(points_, plane);
   const bool accepted = acceptToo && !crossing;
   roi::Polygon polygon = polygonOf(plane, accepted ? roi::PolygonState::Accepted : roi::PolygonState::Draft);
   clearDrawing();
   select(contours_.polygons.size());  // its place once it is added
   if (crossing)
-    message_ = "The outline crosses itself. Move a vertex, or press Enter to accept it all the same.";
+    message_ = {say::closedCrossing, {}};
   else if (!accepted)
-    message_ = "Closed. Drag vertices to adjust, Enter to accept.";
+    message_ = {say::closed, {}};
   asked_ = crossing;
   return {AddPolygon{std::move(polygon)}};
 }
@@ -99,9 +99,9 @@ Acts PolygonTool::accept(const SlicePlane& plane) {
   const roi::Polygon& polygon = contours_.polygons[*selected_];
   message_ = refusal(polygon.points_lps_mm, plane);
   if (!message_.empty()) return {};
-  if (!asked_ && crossesItself(planePoints(polygon.points_lps_mm, plane), true)) {
+  if (!asked_ && crosses(polygon.points_lps_mm, plane)) {
     asked_ = true;
-    message_ = "The outline crosses itself. Press Enter again to accept it all the same.";
+    message_ = {say::acceptCrossing, {}};
     return {};
   }
   asked_ = false;
@@ -109,29 +109,52 @@ Acts PolygonTool::accept(const SlicePlane& plane) {
   return {ChangeState{*selected_, roi::PolygonState::Accepted}};
 }
 
-Acts PolygonTool::removeSelection() {
+// Points of an outline that is there. One that counts stays a region: too little of it is refused, and where it comes
+// to cross itself it is a draft until it is accepted anew.
+Acts PolygonTool::changed(std::size_t index, Eigen::Matrix3Xd points, PointsChange change, const SlicePlane& plane) {
+  const roi::Polygon& before = contours_.polygons[index];
+  ChangePoints act{index, std::move(points), change};
+  asked_ = false;
+  if (before.state != roi::PolygonState::Draft) {
+    if (Sentence why = refusal(act.points_lps_mm, plane, true); !why.empty()) {
+      message_ = std::move(why);
+      return {};
+    }
+    if (crosses(act.points_lps_mm, plane) && !crosses(before.points_lps_mm, plane)) {
+      act.toDraft = asked_ = true;
+      message_ = {say::crossesNow, {}};
+    }
+  }
+  return {std::move(act)};
+}
+
+Acts PolygonTool::removeSelection(const SlicePlane& plane) {
   if (!selected_) return {};
   const std::size_t index = *selected_;
   const Eigen::Matrix3Xd& points = contours_.polygons[index].points_lps_mm;
   const Eigen::Index left = points.cols() - static_cast<Eigen::Index>(vertices_.size());
   if (vertices_.empty() || left < 3) {
-    if (!vertices_.empty() && left > 0)
-      message_ = "Fewer than three vertices would be left: the whole outline is deleted.";
+    if (!vertices_.empty() && left > 0) message_ = {say::wholeDeleted, {}};
     select(std::nullopt);
     return {RemovePolygon{index}};
   }
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     if (std::find(vertices_.begin(), vertices_.end(), i) == vertices_.end()) kept.push_back(i);
-  vertices_.clear();
-  return {ChangePoints{index, points(Eigen::all, kept), PointsChange::Delete}};
+  Acts acts = changed(index, points(Eigen::all, kept), PointsChange::Delete, plane);
+  if (!acts.empty()) vertices_.clear();
+  return acts;
 }
 
-std::string PolygonTool::refusal(const Eigen::Matrix3Xd& points, const SlicePlane& plane) const {
+bool PolygonTool::crosses(const Eigen::Matrix3Xd& points, const SlicePlane& plane) const {
+  return crossesItself(planePoints(points, plane), true);
+}
+
+// edit: of an outline that is there, which then stays as it is.
+Sentence PolygonTool::refusal(const Eigen::Matrix3Xd& points, const SlicePlane& plane, bool edit) const {
   const Outline outline = planePoints(points, plane);
   const int distinct = distinctPoints(outline, 1e-6);
-  if (distinct < 3)
-    return "A region needs three different vertices, this outline has " + std::to_string(distinct) + ".";
+  if (distinct < 3) return {edit ? say::fewVerticesLeft : say::fewVertices, {std::to_string(distinct)}};
   roi::ContourStack alone;
   alone.polygons.push_back(polygonOf(plane, roi::PolygonState::Accepted));
   alone.polygons.front().points_lps_mm = points;
@@ -140,11 +163,10 @@ std::string PolygonTool::refusal(const Eigen::Matrix3Xd& points, const SlicePlan
     const image::Mask mask = roi::rasterise(alone, plane.sliceGrid());
     voxels = std::count(mask.values.begin(), mask.values.end(), std::uint8_t{1});
   } catch (const BadInput& nothingThere) {
-    return nothingThere.what();
+    return {say::asItIs, {nothingThere.what()}};
   }
   if (voxels < reach::minimumVoxels)
-    return "A region needs at least " + std::to_string(reach::minimumVoxels) + " voxels, this outline holds " +
-           std::to_string(voxels) + ". Draw it larger.";
+    return {edit ? say::fewVoxelsLeft : say::fewVoxels, {std::to_string(reach::minimumVoxels), std::to_string(voxels)}};
   return {};
 }
 

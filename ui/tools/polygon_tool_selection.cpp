@@ -9,10 +9,6 @@
 
 namespace glisson::tools {
 
-namespace {
-constexpr const char* nothingSelected = "Select an outline first: click its edge.";
-}
-
 Acts PolygonTool::setMode(ToolMode mode, const SlicePlane& plane) {
   if (mode == mode_) return {};
   Acts acts = points_.cols() > 0 ? leaveSlice(plane) : Acts{};
@@ -46,14 +42,13 @@ Acts PolygonTool::nudge(const Eigen::Vector2d& pixels, const SlicePlane& plane) 
   const Eigen::Vector3d shift = plane.grid.direction * Eigen::Vector3d(step_mm.x(), step_mm.y(), 0.0);
   Eigen::Matrix3Xd points = contours_.polygons[*selected_].points_lps_mm;
   for (const Eigen::Index v : vertices_) points.col(v) += shift;
-  asked_ = false;
-  return {ChangePoints{*selected_, std::move(points), PointsChange::Nudge}};
+  return changed(*selected_, std::move(points), PointsChange::Nudge, plane);
 }
 
-Acts PolygonTool::split() {
-  message_.clear();
+Acts PolygonTool::split(const SlicePlane& plane) {
+  message_ = {};
   if (state() == ToolState::Drawing || !selected_) {
-    message_ = nothingSelected;
+    message_ = {say::selectFirst, {}};
     return {};
   }
   const std::size_t index = *selected_;
@@ -61,12 +56,7 @@ Acts PolygonTool::split() {
   const Eigen::Index n = whole.points_lps_mm.cols();
   if (const auto ends = cutBetween(n, vertices_)) {
     auto [first, second] = cut(whole.points_lps_mm, ends->first, ends->second);
-    roi::Polygon a = whole, b = whole;
-    a.points_lps_mm = std::move(first);
-    b.points_lps_mm = std::move(second);
-    select(index);
-    message_ = "Cut in two.";
-    return {ReplacePolygon{index, {std::move(a), std::move(b)}}};
+    return cutAlong(index, std::move(first), std::move(second), plane);
   }
   std::vector<Eigen::Index> chosen = vertices_;
   if (chosen.empty()) {
@@ -75,17 +65,17 @@ Acts PolygonTool::split() {
   }
   Eigen::Matrix3Xd points = withHalvedEdges(whole.points_lps_mm, chosen);
   if (points.cols() == n) {
-    message_ = "Split needs an edge (two neighbours) or two vertices apart.";
+    message_ = {say::splitNeeds, {}};
     return {};
   }
   vertices_.clear();
   return {ChangePoints{index, std::move(points), PointsChange::Insert}};
 }
 
-Acts PolygonTool::trim() {
-  message_.clear();
+Acts PolygonTool::trim(const SlicePlane& plane) {
+  message_ = {};
   if (state() == ToolState::Drawing || !selected_) {
-    message_ = nothingSelected;
+    message_ = {say::selectFirst, {}};
     return {};
   }
   const std::size_t index = *selected_;
@@ -101,8 +91,9 @@ Acts PolygonTool::trim() {
       }
       return 0.5 * twice.norm();
     };
-    vertices_.clear();
-    return {ChangePoints{index, area(first) >= area(second) ? first : second, PointsChange::Delete}};
+    Acts acts = changed(index, area(first) >= area(second) ? first : second, PointsChange::Delete, plane);
+    if (!acts.empty()) vertices_.clear();
+    return acts;
   }
   std::vector<Eigen::Index> chosen = vertices_;
   if (chosen.empty()) {
@@ -118,21 +109,47 @@ Acts PolygonTool::trim() {
     if (isChosen) ++at;
   }
   if (kept.size() < 3 || static_cast<Eigen::Index>(kept.size()) == n) {
-    message_ = "Trim needs more vertices: at least three stay.";
+    message_ = {say::trimNeeds, {}};
     return {};
   }
-  vertices_.clear();
-  return {ChangePoints{index, points(Eigen::all, kept), PointsChange::Delete}};
+  Acts acts = changed(index, points(Eigen::all, kept), PointsChange::Delete, plane);
+  if (!acts.empty()) vertices_.clear();
+  return acts;
+}
+
+Acts PolygonTool::cutAlong(std::size_t index, Eigen::Matrix3Xd first, Eigen::Matrix3Xd second,
+                           const SlicePlane& plane) {
+  const roi::Polygon& whole = contours_.polygons[index];
+  const bool counts = whole.state != roi::PolygonState::Draft;
+  const bool crossed = counts && crosses(whole.points_lps_mm, plane);
+  message_ = {say::cutInTwo, {}};
+  std::vector<roi::Polygon> parts(2, whole);
+  parts[0].points_lps_mm = std::move(first);
+  parts[1].points_lps_mm = std::move(second);
+  for (roi::Polygon& part : parts) {
+    if (!counts) continue;
+    if (Sentence why = refusal(part.points_lps_mm, plane, true); !why.empty()) {
+      message_ = std::move(why);
+      return {};
+    }
+    // A chord through a bay of the outline runs across its edges.
+    if (!crossed && crosses(part.points_lps_mm, plane)) {
+      part.state = roi::PolygonState::Draft;
+      message_ = {say::crossesNow, {}};
+    }
+  }
+  select(index);
+  return {ReplacePolygon{index, std::move(parts)}};
 }
 
 Acts PolygonTool::setKind(bool exclude) {
-  message_.clear();
+  message_ = {};
   if (state() == ToolState::Drawing || !selected_) {
-    message_ = nothingSelected;
+    message_ = {say::selectFirst, {}};
     return {};
   }
   if (contours_.polygons[*selected_].exclude == exclude) return {};
-  message_ = exclude ? "This outline is left out of the region." : "This outline counts.";
+  message_ = {exclude ? say::leftOut : say::counts, {}};
   return {ChangeKind{*selected_, exclude}};
 }
 

@@ -254,7 +254,7 @@ TEST(Selection, NudgeMovesByImagePixelsAsSeen) {
 TEST(Selection, SplitHalvesSelectedEdges) {
   ToolBench b = accepted();
   b.click(200, 100);
-  b.apply(b.tool.split());
+  b.apply(b.tool.split(b.plane));
   EXPECT_EQ(b.contours.polygons[0].points_lps_mm.cols(), 5);
   EXPECT_NEAR((b.plane.toPixel(b.contours.polygons[0].points_lps_mm.col(1)) - Eigen::Vector2d(200, 100)).norm(), 0,
               1e-9);
@@ -266,7 +266,7 @@ TEST(Selection, SplitBetweenTwoVerticesCutsInTwoInOneStepAndKeepsTheArea) {
   b.click(300, 300, shift);
   const double before = roi::area_mm2(b.contours);
   const std::size_t steps = b.undo.size();
-  b.apply(b.tool.split());
+  b.apply(b.tool.split(b.plane));
   ASSERT_EQ(b.contours.polygons.size(), 2u);
   EXPECT_EQ(b.undo.size(), steps + 1);
   EXPECT_NEAR(roi::area_mm2(b.contours), before, 1e-6 * before);
@@ -285,7 +285,7 @@ TEST(Selection, TrimBetweenTwoVerticesKeepsTheLargerPart) {
   b.key(ToolKey::CtrlEnter);
   b.click(400, 100);
   b.click(250, 300, shift);
-  b.apply(b.tool.trim());
+  b.apply(b.tool.trim(b.plane));
   EXPECT_EQ(b.contours.polygons[0].points_lps_mm.cols(), 4);  // the corner at (400, 300) is gone
   EXPECT_NEAR(roi::area_mm2(b.contours), (300.0 * 200.0 - 0.5 * 150.0 * 200.0) / 16.0, 1e-6);
 }
@@ -294,10 +294,10 @@ TEST(Selection, TrimThinsOutWhatSplitHalved) {
   ToolBench b = accepted();
   const Eigen::Matrix3Xd four = b.contours.polygons[0].points_lps_mm;
   b.tool.selectAll(b.plane);
-  b.apply(b.tool.split());
+  b.apply(b.tool.split(b.plane));
   EXPECT_EQ(b.contours.polygons[0].points_lps_mm.cols(), 8);
   b.tool.selectAll(b.plane);
-  b.apply(b.tool.trim());
+  b.apply(b.tool.trim(b.plane));
   EXPECT_EQ(b.contours.polygons[0].points_lps_mm, four);
 }
 
@@ -314,9 +314,9 @@ TEST(Selection, KindChangesAndGoesBack) {
 
 TEST(Selection, WithoutASelectionActsSayWhatIsMissing) {
   ToolBench b = accepted();
-  EXPECT_TRUE(b.tool.split().empty());
-  EXPECT_NE(b.tool.message(), "");
-  EXPECT_TRUE(b.tool.trim().empty());
+  EXPECT_TRUE(b.tool.split(b.plane).empty());
+  EXPECT_FALSE(b.tool.message().empty());
+  EXPECT_TRUE(b.tool.trim(b.plane).empty());
   EXPECT_TRUE(b.tool.setKind(true).empty());
   EXPECT_TRUE(b.tool.nudge({1, 0}, b.plane).empty());
 }

@@ -56,7 +56,7 @@ TEST(PolygonTool, TwoVerticesNeverClose) {
   EXPECT_FALSE(b.tool.closes());
   b.key(ToolKey::Enter);
   EXPECT_EQ(b.tool.state(), ToolState::Drawing);
-  EXPECT_NE(b.tool.message().find("three"), std::string::npos);
+  EXPECT_NE(b.tool.message().english().find("three"), std::string::npos);
   EXPECT_TRUE(b.contours.polygons.empty());
 }
 
@@ -91,11 +91,11 @@ TEST(PolygonTool, BackspaceTakesTheLastVertexAndUndoBringsItBack) {
   b.click(200, 180);
   b.key(ToolKey::Backspace);
   EXPECT_EQ(b.tool.drawing().cols(), 2);
-  EXPECT_TRUE(b.tool.undoDrawing());
+  EXPECT_TRUE(b.tool.undoDrawing(b.plane));
   EXPECT_EQ(b.tool.drawing().cols(), 3);
-  EXPECT_TRUE(b.tool.undoDrawing());
+  EXPECT_TRUE(b.tool.undoDrawing(b.plane));
   EXPECT_EQ(b.tool.drawing().cols(), 2);
-  EXPECT_TRUE(b.tool.redoDrawing());
+  EXPECT_TRUE(b.tool.redoDrawing(b.plane));
   EXPECT_EQ(b.tool.drawing().cols(), 3);
 }
 
@@ -259,7 +259,7 @@ TEST(PolygonTool, ACrossingOutlineIsShownAndAcceptingAsksOnce) {
   b.key(ToolKey::CtrlEnter);
   ASSERT_EQ(b.contours.polygons.size(), 1u);
   EXPECT_EQ(b.contours.polygons[0].state, roi::PolygonState::Draft);
-  EXPECT_NE(b.tool.message().find("crosses itself"), std::string::npos);
+  EXPECT_NE(b.tool.message().english().find("crosses itself"), std::string::npos);
   b.key(ToolKey::Enter);
   EXPECT_EQ(b.contours.polygons[0].state, roi::PolygonState::Accepted);
 }
@@ -272,7 +272,7 @@ TEST(PolygonTool, LessThanFourVoxelsIsRefusedWithTheReason) {
   b.key(ToolKey::Enter);
   EXPECT_TRUE(b.contours.polygons.empty());
   EXPECT_EQ(b.tool.state(), ToolState::Drawing);
-  EXPECT_NE(b.tool.message(), "");
+  EXPECT_FALSE(b.tool.message().empty());
 }
 
 TEST(PolygonTool, ShiftClickInsideStartsAHole) {

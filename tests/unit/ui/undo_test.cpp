@@ -33,7 +33,7 @@ void randomWork(ToolBench& b, std::uint64_t seed, int gestures) {
     } else if (action == 10)
       b.apply(b.tool.setMode(static_cast<tools::ToolMode>(random.below(3)), b.plane));
     else if (action == 11)
-      b.apply(random.uniform() < 0.5 ? b.tool.split() : b.tool.trim());
+      b.apply(random.uniform() < 0.5 ? b.tool.split(b.plane) : b.tool.trim(b.plane));
     else if (action == 12)
       b.apply(b.tool.setKind(random.uniform() < 0.5));
     else if (action == 13)
