@@ -1,0 +1,213 @@
+#include "pipeline/detail/setup_reader.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace glisson::pipeline::detail {
+
+double positive(JsonObject& o, const std::string& key, double value) {
+  if (!(value > 0.0)) o.fail(key, "is " + std::to_string(value) + "; it must be greater than 0");
+  return value;
+}
+
+std::filesystem::path existing(JsonObject& o, const std::string& key, const std::filesystem::path& folder) {
+  const std::filesystem::path p = o.text(key);
+  const std::filesystem::path full = p.is_absolute() ? p : folder / p;
+  std::error_code ec;
+  if (!std::filesystem::exists(full, ec))
+    o.fail(key, "names a file or folder that does not exist; paths are relative to the scene file");
+  return full;
+}
+
+namespace {
+
+retraction::Region readRegion(JsonObject o, const std::filesystem::path& folder) {
+  const int given =
+      int{o.has("face")} + int{o.has("surface")} + int{o.has("box_mm")} + int{o.has("plane")} + int{o.has("mask")};
+  if (given != 1) o.fail("give exactly one of face, surface, box_mm, plane, mask");
+  retraction::Region region;
+  if (o.has("face")) {
+    region = retraction::FaceRegion{o.word("face", {"x-", "x+", "y-", "y+", "z-", "z+"})};
+  } else if (o.has("surface")) {
+    region = retraction::SurfaceRegion{
+        o.word("surface", {"posterior", "anterior", "superior", "inferior", "left", "right", "outer", "inner", "all"})};
+  } else if (o.has("box_mm")) {
+    const std::vector<Eigen::Vector3d> corners = o.vectors3("box_mm");
+    if (corners.size() != 2) o.fail("box_mm", "must be two corners [[x,y,z],[x,y,z]]");
+    region = retraction::BoxRegion{corners[0].cwiseMin(corners[1]), corners[0].cwiseMax(corners[1])};
+  } else if (o.has("plane")) {
+    JsonObject p = o.object("plane");
+    retraction::PlaneRegion plane;
+    plane.point_mm = p.vector3("point_mm");
+    plane.normal = p.vector3("normal");
+    if (plane.normal.norm() < 1e-12) p.fail("normal", "must not be zero");
+    plane.normal.normalize();
+    plane.tolerance_mm = positive(p, "tolerance_mm", p.number("tolerance_mm", 0.1));
+    p.finish();
+    region = plane;
+  } else {
+    const std::filesystem::path file = existing(o, "mask", folder);
+    const int label = o.integer("label", 0);
+    region = retraction::MaskRegion{file, label};
+  }
+  o.finish();
+  return region;
+}
+
+Eigen::Vector3d direction(JsonObject& o, const std::string& key, const Eigen::Vector3d& fallback) {
+  if (!o.has(key)) return fallback;
+  if (o.raw(key).is_string()) {
+    o.word(key, {"transverse", "anterior"});
+    return fallback;
+  }
+  const Eigen::Vector3d d = o.vector3(key);
+  if (d.norm() < 1e-12) o.fail(key, "must not be zero");
+  return d.normalized();
+}
+
+}  // namespace
+
+retraction::SupportSpec readSupport(JsonObject o, const std::filesystem::path& folder) {
+  retraction::SupportSpec s;
+  s.region = readRegion(o.object("region"), folder);
+  if (o.word("kind", {"fixed", "spring"}) == "fixed") {
+    s.kind = retraction::SupportSpec::Kind::Fixed;
+    if (o.has("axes")) {
+      s.axes = {false, false, false};
+      const nlohmann::json& axes = o.raw("axes");
+      if (!axes.is_array() || axes.empty()) o.fail("axes", "must be a list out of \"x\", \"y\", \"z\"");
+      for (const nlohmann::json& a : axes) {
+        if (a == "x" || a == "y" || a == "z")
+          s.axes[static_cast<std::size_t>(a.get<std::string>()[0] - 'x')] = true;
+        else
+          o.fail("axes", "must be a list out of \"x\", \"y\", \"z\"");
+      }
+    }
+    if (o.has("displacement_mm")) s.displacement_mm = o.vector3("displacement_mm");
+  } else {
+    s.kind = retraction::SupportSpec::Kind::Spring;
+    s.stiffness_kPa_per_mm = o.number("stiffness_kPa_per_mm");
+    if (s.stiffness_kPa_per_mm < 0) o.fail("stiffness_kPa_per_mm", "must not be negative");
+    s.normalOnly = o.word("direction", {"isotropic", "normal"}, "isotropic") == "normal";
+  }
+  o.finish();
+  return s;
+}
+
+retraction::LoadSpec readLoad(JsonObject o, const std::filesystem::path& folder) {
+  const std::string kind = o.word("kind", {"body_force", "traction", "pressure", "retractor"});
+  retraction::LoadSpec load;
+  if (kind == "body_force") {
+    load = retraction::BodyForce{o.vector3("N_per_m3")};
+  } else if (kind == "traction") {
+    load = retraction::Traction{readRegion(o.object("region"), folder), o.vector3("kPa")};
+  } else if (kind == "pressure") {
+    load = retraction::Pressure{readRegion(o.object("region"), folder), o.number("kPa")};
+  } else {
+    retraction::Retractor r;
+    r.diameter_mm = positive(o, "diameter_mm", o.number("diameter_mm", defaults::retractorDiameter.mm()));
+    r.length_mm = positive(o, "length_mm", o.number("length_mm", 80.0));
+    r.spread_mm = o.number("spread_mm", r.spread_mm);
+    if (r.spread_mm < 0) o.fail("spread_mm", "must not be negative");
+    if (o.has("at")) {
+      if (o.raw("at").is_string())
+        o.word("at", {"inferior-right-lobe"});
+      else
+        r.at_mm = o.vector3("at");
+    }
+    if (o.has("force")) {
+      if (o.raw("force").is_string())
+        o.word("force", {"liver-weight"});
+      else
+        r.force_N = o.number("force");
+    }
+    r.direction = direction(o, "direction", Eigen::Vector3d(0, -1, 0));
+    r.axis = direction(o, "axis", Eigen::Vector3d(1, 0, 0));
+    if (r.axis.cross(r.direction).norm() < 0.1) o.fail("axis", "is (nearly) parallel to the direction of the hoist");
+    load = r;
+  }
+  o.finish();
+  return load;
+}
+
+retraction::ModelSpec readModel(JsonObject o) {
+  retraction::ModelSpec m;
+  const std::string kind = o.word("kind", {"fem-hex", "fem-tet", "meshfree"});
+  if (kind == "meshfree") {
+    m.kind = retraction::ModelKind::Meshfree;
+    m.meshfree.frames = o.integer("frames", 200);
+    if (m.meshfree.frames < 1) o.fail("frames", "must be at least 1");
+    const std::string kernel = o.word("kernel", {"voronoi", "wendland", "mls"}, "wendland");
+    m.meshfree.kernel = kernel == "voronoi" ? mechanics::Kernel::Voronoi
+                        : kernel == "mls"   ? mechanics::Kernel::Mls
+                                            : mechanics::Kernel::Wendland;
+    m.meshfree.order = o.integer("order", 1);
+    if (m.meshfree.order != 1 && m.meshfree.order != 2) o.fail("order", "must be 1 (affine) or 2 (quadratic)");
+  } else if (kind == "fem-hex") {
+    const std::string e = o.word("element", {"H8", "H8-Bbar", "H8-incompatible"}, "H8-incompatible");
+    m.element = e == "H8"        ? mechanics::HexElement::H8
+                : e == "H8-Bbar" ? mechanics::HexElement::BBar
+                                 : mechanics::HexElement::Incompatible;
+  } else {
+    m.kind = retraction::ModelKind::FemTet;
+    if (o.has("order")) {
+      if (o.has("element")) o.fail("order", "says the same as \"element\"; keep one of the two");
+      const int order = o.integer("order", 2);
+      if (order != 1 && order != 2) o.fail("order", "must be 1 (four nodes) or 2 (ten)");
+      m.quadraticTets = order == 2;
+    } else {
+      m.quadraticTets = o.word("element", {"T4", "T10"}, "T10") == "T10";
+    }
+    m.delaunay = o.word("mesh", {"voxels", "delaunay"}, "voxels") == "delaunay";
+    if (m.delaunay) {
+      m.cell_mm = positive(o, "cell_mm", o.number("cell_mm", m.cell_mm));
+      m.toolCell_mm = positive(o, "tool_cell_mm", o.number("tool_cell_mm", std::min(m.cell_mm, m.toolCell_mm)));
+      if (m.toolCell_mm > m.cell_mm) o.fail("tool_cell_mm", "must not be larger than cell_mm");
+    }
+  }
+  o.finish();
+  return m;
+}
+
+retraction::AnalysisSpec readAnalysis(JsonObject o) {
+  retraction::AnalysisSpec a;
+  a.dynamic = o.word("kind", {"static", "dynamic"}) == "dynamic";
+  if (a.dynamic) {
+    a.h_ms = positive(o, "h_ms", o.number("h_ms", a.h_ms));
+    a.end_s = positive(o, "end_s", o.number("end_s", a.end_s));
+    if (o.has("rayleigh")) {
+      const std::vector<double> r = o.numbers("rayleigh", 2);
+      if (r[0] < 0 || r[1] < 0) o.fail("rayleigh", "must be two numbers, alpha (1/s) and beta (s), not negative");
+      a.rayleigh = {r[0], r[1]};
+    }
+    a.stopWhenSteady = o.number("stop_when_steady", a.stopWhenSteady);
+    if (a.stopWhenSteady < 0) o.fail("stop_when_steady", "must not be negative");
+    if (a.end_s / (1e-3 * a.h_ms) > 1e7) o.fail("h_ms", "makes more than ten million steps");
+  }
+  o.finish();
+  return a;
+}
+
+mechanics::SolverOptions readSolver(JsonObject o) {
+  mechanics::SolverOptions s;
+  const std::string kind = o.word("kind", {"auto", "cg", "factorised", "multigrid", "condensed"});
+  s.kind = kind == "cg"           ? mechanics::SolverKind::Cg
+           : kind == "factorised" ? mechanics::SolverKind::Factorised
+           : kind == "multigrid"  ? mechanics::SolverKind::Multigrid
+                                  : mechanics::SolverKind::Auto;
+  s.iterations = o.integer("iterations", 0);
+  if (s.iterations < 0) o.fail("iterations", "must not be negative");
+  s.tolerance = positive(o, "tolerance", o.number("tolerance", s.tolerance));
+  if (s.tolerance >= 1.0) o.fail("tolerance", "is the relative residual to reach: it must be below 1, e.g. 1e-8");
+  if (kind == "cg") {
+    const std::string p = o.word("preconditioner", {"none", "jacobi", "block-jacobi"}, "jacobi");
+    s.preconditioner = p == "none"     ? mechanics::Preconditioner::None
+                       : p == "jacobi" ? mechanics::Preconditioner::Jacobi
+                                       : mechanics::Preconditioner::BlockJacobi;
+  }
+  o.finish();
+  return s;
+}
+
+}  // namespace glisson::pipeline::detail
