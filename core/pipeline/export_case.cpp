@@ -49,7 +49,8 @@ const dicom::Series& ExportCase::mre() {
 const elastography::StiffnessMap& ExportCase::stiffness() {
   if (stiffness_) return *stiffness_;
   if (scene_.geometry.mre.empty()) throw BadInput("this format needs an elastogram, and the scene has none");
-  LoadedStiffness loaded = loadStiffness(scene_.geometry.mre, {{}, {}, scene_.geometry.roles}, progress_);
+  const GeometrySpec& g = scene_.geometry;
+  LoadedStiffness loaded = loadStiffness(g.mre, {g.mreQuantity, g.mreUnit, g.roles}, progress_);
   for (const std::string& w : loaded.warnings) warn(w);
   stiffness_ = request_.quantity ? elastography::toQuantity(loaded.map, *request_.quantity, scene_.setup.poisson)
                                  : std::move(loaded.map);

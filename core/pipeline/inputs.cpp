@@ -50,7 +50,7 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
   clock.note("read-roi");
   if (needs.mre) {
     progress.report(0.5, "reading the elastogram");
-    LoadedStiffness mre = loadStiffness(g.mre, {{}, {}, g.roles}, progress.part(0.5, 0.9));
+    LoadedStiffness mre = loadStiffness(g.mre, {g.mreQuantity, g.mreUnit, g.roles}, progress.part(0.5, 0.9));
     if (g.rigidRegistration) in.registration = fitToMri(mre, g.mre, {}, mri.volume, progress.part(0.9, 1.0));
     append(in.warnings, mre.warnings);
     append(in.warnings, checkTogether(mri, mre, g.overrideChecks));

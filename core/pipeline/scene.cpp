@@ -67,6 +67,10 @@ GeometrySpec readGeometry(JsonObject o, const std::filesystem::path& folder) {
     g.rigidRegistration = o.word("registration", {"none", "rigid"}, "none") == "rigid";
     if (o.has("roles")) g.roles = readRoles(o);
     g.overrideChecks = o.boolean("override", false);
+    if (o.has("mre_quantity"))
+      g.mreQuantity = o.word("mre_quantity", {"shear", "youngs"}) == "youngs" ? StiffnessQuantity::Youngs
+                                                                              : StiffnessQuantity::Shear;
+    if (o.has("mre_unit")) g.mreUnit = o.text("mre_unit");
     g.label = o.integer("label", 0);
   }
   o.finish();

@@ -41,6 +41,8 @@ Json toJson(const GeometrySpec& g, const std::filesystem::path& folder) {
       if (g.rigidRegistration) j["registration"] = "rigid";
       for (const auto& [which, role] : g.roles) j["roles"][which] = dicom::name(role);
       if (g.overrideChecks) j["override"] = true;
+      if (g.mreQuantity) j["mre_quantity"] = *g.mreQuantity == StiffnessQuantity::Youngs ? "youngs" : "shear";
+      if (g.mreUnit) j["mre_unit"] = *g.mreUnit;
       if (g.label != 0) j["label"] = g.label;
       break;
   }

@@ -53,6 +53,15 @@ struct LoadedStiffness {
 LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeaning& meaning,
                               const Progress& progress = {});
 
+/// Something in which two things that would be used together differ.
+struct Difference {
+  enum class In { Patient, Day, Frame } in;  ///< another frame of reference is told, the others are refused
+  std::string what;                          ///< in words, without a full stop
+};
+
+/// In what an MRI and an elastogram differ that may not be passed over. What either does not say is not compared.
+std::vector<Difference> differences(const AnatomicalImage& mri, const LoadedStiffness& mre);
+
 /// Whether an MRI and an elastogram may be used together. Throws BadInput where they are of different patients or study
 /// dates, unless overridden; returns what to tell and to store: that, and different frames of reference (the patient
 /// may have moved), each with whether it was overridden. What either does not say is not compared.
@@ -74,6 +83,9 @@ struct LoadedRoi {
 
 /// name: structure or segment to take; empty = found by its name. label: of a label map (0 = any), or segment number.
 LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, int label, const Progress& progress = {});
+
+/// In what a region of interest differs from the images that it is used with (null: not used).
+std::vector<Difference> differences(const LoadedRoi& roi, const AnatomicalImage* mri, const LoadedStiffness* mre);
 
 /// Whether a region of interest belongs to the images that it is used with (null: not used). Throws BadInput where it
 /// is of another patient; or of another examination day, unless a frame of reference that it shares with an image puts

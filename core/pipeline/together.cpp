@@ -13,26 +13,6 @@ bool same(const std::string& a, const std::string& b) {
   return !a.empty() && a == b;
 }
 
-/// Collects what is said about things taken together, or refuses.
-struct Verdict {
-  bool overridden;
-  std::string choose;  ///< what to do instead
-  std::vector<std::string> said{};
-
-  void refuse(const std::string& what) {
-    if (!overridden)
-      throw BadInput(
-          what + "; " + choose +
-          ", or take them together nevertheless with --override (\"override\": true in the scene's geometry), "
-          "which is written to the record");
-    said.push_back(what + ": overridden by the user");
-  }
-  void otherFrame(const std::string& what, const std::string& check) {
-    said.push_back(what + " have different frames of reference: " + check +
-                   (overridden ? " (confirmed by the user)" : " (confirm it with --override)"));
-  }
-};
-
 /// What an object says about where it belongs.
 struct Belonging {
   std::string patientKey, studyUid, studyDate, frame;
@@ -40,6 +20,27 @@ struct Belonging {
 
 Belonging of(const LoadedRoi& roi) {
   return {roi.origin.patientKey, roi.origin.studyUid, roi.origin.studyDate, roi.frameOfReferenceUid};
+}
+
+std::vector<std::string> judge(const std::vector<Difference>& differences, bool overridden, const std::string& choose) {
+  std::vector<std::string> said;
+  for (const Difference& d : differences) {
+    if (d.in == Difference::In::Frame) {
+      said.push_back(d.what + (overridden ? " (confirmed by the user)" : " (confirm it with --override)"));
+      continue;
+    }
+    if (!overridden)
+      throw BadInput(
+          d.what + "; " + choose +
+          ", or take them together nevertheless with --override (\"override\": true in the scene's geometry), "
+          "which is written to the record");
+    said.push_back(d.what + ": overridden by the user");
+  }
+  return said;
+}
+
+Difference otherFrame(const std::string& what, const std::string& check) {
+  return {Difference::In::Frame, what + " have different frames of reference: " + check};
 }
 
 /// Another day, and nothing that puts both in one place all the same: a set drawn later is often filed under its own
@@ -50,18 +51,19 @@ bool otherDay(const Belonging& a, const Belonging& b) {
 
 }  // namespace
 
-std::vector<std::string> checkTogether(const AnatomicalImage& mri, const LoadedStiffness& mre, bool overridden) {
-  Verdict verdict{overridden, "choose two series of one examination"};
-  if (differ(mri.patientKey, mre.patientKey)) verdict.refuse("the MRI and the elastogram belong to different patients");
-  if (differ(mri.studyDate, mre.studyDate)) verdict.refuse("the MRI and the elastogram were taken on different days");
+std::vector<Difference> differences(const AnatomicalImage& mri, const LoadedStiffness& mre) {
+  std::vector<Difference> found;
+  if (differ(mri.patientKey, mre.patientKey))
+    found.push_back({Difference::In::Patient, "the MRI and the elastogram belong to different patients"});
+  if (differ(mri.studyDate, mre.studyDate))
+    found.push_back({Difference::In::Day, "the MRI and the elastogram were taken on different days"});
   if (differ(mri.frameOfReferenceUid, mre.map.frameOfReferenceUid))
-    verdict.otherFrame("the MRI and the elastogram", "check that the patient did not move");
-  return verdict.said;
+    found.push_back(otherFrame("the MRI and the elastogram", "check that the patient did not move"));
+  return found;
 }
 
-std::vector<std::string> checkRoi(const LoadedRoi& roi, const AnatomicalImage* mri, const LoadedStiffness* mre,
-                                  bool overridden) {
-  Verdict verdict{overridden, "give the region that was drawn on these images"};
+std::vector<Difference> differences(const LoadedRoi& roi, const AnatomicalImage* mri, const LoadedStiffness* mre) {
+  std::vector<Difference> found;
   const Belonging region = of(roi);
   std::vector<std::pair<std::string, Belonging>> images;
   if (mri != nullptr)
@@ -72,26 +74,38 @@ std::vector<std::string> checkRoi(const LoadedRoi& roi, const AnatomicalImage* m
   bool placed = false;
   for (const auto& [name, image] : images) {
     if (differ(region.patientKey, image.patientKey))
-      verdict.refuse("the region of interest and " + name + " belong to different patients");
+      found.push_back(
+          {Difference::In::Patient, "the region of interest and " + name + " belong to different patients"});
     placed = placed || !otherDay(region, image);
   }
   if (!placed && !images.empty())
-    verdict.refuse("the region of interest was drawn on images of another day than " + images.front().first);
+    found.push_back({Difference::In::Day,
+                     "the region of interest was drawn on images of another day than " + images.front().first});
   if (mri != nullptr && differ(region.frame, mri->frameOfReferenceUid))
-    verdict.otherFrame("the region of interest and the MRI", "check that they belong together");
-  return verdict.said;
+    found.push_back(otherFrame("the region of interest and the MRI", "check that they belong together"));
+  return found;
+}
+
+std::vector<std::string> checkTogether(const AnatomicalImage& mri, const LoadedStiffness& mre, bool overridden) {
+  return judge(differences(mri, mre), overridden, "choose two series of one examination");
+}
+
+std::vector<std::string> checkRoi(const LoadedRoi& roi, const AnatomicalImage* mri, const LoadedStiffness* mre,
+                                  bool overridden) {
+  return judge(differences(roi, mri, mre), overridden, "give the region that was drawn on these images");
 }
 
 std::vector<std::string> checkReaders(const std::vector<LoadedRoi>& rois, bool overridden) {
-  Verdict verdict{overridden, "give outlines that were drawn on the same images"};
+  std::vector<Difference> found;
   for (std::size_t r = 1; r < rois.size(); ++r) {
     const Belonging first = of(rois.front()), other = of(rois[r]);
     const std::string who = "the outlines of reader 1 and reader " + std::to_string(r + 1);
-    if (differ(first.patientKey, other.patientKey)) verdict.refuse(who + " belong to different patients");
-    if (otherDay(first, other)) verdict.refuse(who + " were drawn on images of different days");
-    if (differ(first.frame, other.frame)) verdict.otherFrame(who, "check that they belong together");
+    if (differ(first.patientKey, other.patientKey))
+      found.push_back({Difference::In::Patient, who + " belong to different patients"});
+    if (otherDay(first, other)) found.push_back({Difference::In::Day, who + " were drawn on images of different days"});
+    if (differ(first.frame, other.frame)) found.push_back(otherFrame(who, "check that they belong together"));
   }
-  return verdict.said;
+  return judge(found, overridden, "give outlines that were drawn on the same images");
 }
 
 }  // namespace glisson::pipeline

@@ -98,6 +98,39 @@ TEST(Together, readersOutlineOnePatient) {
   EXPECT_THAT(checkReaders(rois, false), ElementsAre(HasSubstr("different frames of reference")));
 }
 
+TEST(Together, differencesAreNamedByKindWithoutRefusing) {
+  AnatomicalImage mri;
+  LoadedStiffness mre;
+  EXPECT_THAT(differences(mri, mre), IsEmpty());
+  mri.patientKey = mri.studyDate = mri.frameOfReferenceUid = "1";
+  mre.patientKey = mre.studyDate = mre.map.frameOfReferenceUid = "2";
+  std::vector<Difference::In> in;
+  for (const Difference& d : differences(mri, mre)) in.push_back(d.in);
+  EXPECT_THAT(in, ElementsAre(Difference::In::Patient, Difference::In::Day, Difference::In::Frame));
+  LoadedRoi roi;
+  roi.origin.patientKey = "1";
+  roi.frameOfReferenceUid = "2";
+  const auto found = differences(roi, &mri, nullptr);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.front().in, Difference::In::Frame);
+}
+
+TEST(Together, aSceneKeepsWhatABareElastogramIs) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"mri", "mre", "roi"}) std::filesystem::create_directory(folder / name);
+  const auto scene = [&folder](const std::string& more) {
+    return parseScene(
+        R"({"schema":"glisson/scene/1","geometry":{"kind":"patient","mri":"mri","mre":"mre","roi":"roi")" + more +
+            R"(},"material":"mre","supports":[],"loads":[]})",
+        folder.path());
+  };
+  EXPECT_FALSE(scene("").geometry.mreQuantity || scene("").geometry.mreUnit);
+  const Scene again = parseScene(toJson(scene(R"(,"mre_quantity":"youngs","mre_unit":"0.01kPa")")), folder.path());
+  EXPECT_EQ(again.geometry.mreQuantity, StiffnessQuantity::Youngs);
+  EXPECT_EQ(again.geometry.mreUnit, "0.01kPa");
+  EXPECT_THROW(scene(R"(,"mre_quantity":"bulk")"), BadInput);
+}
+
 TEST(Together, aRoleMustBeOfASeriesThatIsThere) {
   const dicom::RoleOverrides roles = {{"1.2", dicom::SeriesRole::Stiffness}, {"7", dicom::SeriesRole::Anatomical}};
   EXPECT_NO_THROW(checkRolesFound(roles, {{"1.2"}, {"7"}}));
