@@ -465,6 +465,22 @@
             <source>%1 series, %2 files left out. Correct a role where the guess is wrong.</source>
             <translation>%1 Serien, %2 Dateien ausgelassen. Eine falsch geratene Rolle lässt sich ändern.</translation>
         </message>
+        <message>
+            <source>Answer…</source>
+            <translation>Antworten…</translation>
+        </message>
+        <message>
+            <source>Asks again whether, and as what, the elastogram is used</source>
+            <translation>Fragt noch einmal, ob und als was das Elastogramm verwendet wird</translation>
+        </message>
+        <message>
+            <source>Not opened: %1</source>
+            <translation>Nicht geöffnet: %1</translation>
+        </message>
+        <message>
+            <source>%1 The elastogram is left out until this is answered.</source>
+            <translation>%1 Das Elastogramm bleibt weg, bis das beantwortet ist.</translation>
+        </message>
     </context>
     <context>
         <name>glisson::panels::MainWindow</name>
@@ -685,14 +701,6 @@
             <translation>&amp;Wiederherstellen: %1</translation>
         </message>
         <message>
-            <source>Outlines are not saved</source>
-            <translation>Konturen sind nicht gespeichert</translation>
-        </message>
-        <message>
-            <source>The outlines of this case are not saved. Go on without saving them?</source>
-            <translation>Die Konturen dieses Falls sind nicht gespeichert. Ohne Speichern fortfahren?</translation>
-        </message>
-        <message>
             <source>About Glisson</source>
             <translation>Über Glisson</translation>
         </message>
@@ -707,6 +715,118 @@
         <message>
             <source>Not exported: %1</source>
             <translation>Nicht exportiert: %1</translation>
+        </message>
+        <message>
+            <source>Import them all the same? The answer is kept in the case.</source>
+            <translation>Trotzdem importieren? Die Antwort steht im Fall.</translation>
+        </message>
+        <message>
+            <source>Import</source>
+            <translation>Importieren</translation>
+        </message>
+        <message>
+            <source>Folder for pictures and report</source>
+            <translation>Ordner für Bilder und Bericht</translation>
+        </message>
+        <message>
+            <source>Glisson did not end in order. %1 outlines can be brought back%2, with the parameters as they were.</source>
+            <translation>Glisson wurde nicht ordentlich beendet. %1 Konturen lassen sich zurückholen%2, mit den Parametern, wie sie waren.</translation>
+        </message>
+        <message>
+            <source>What Glisson could bring back is deleted for good.</source>
+            <translation>Was Glisson zurückholen könnte, wird endgültig gelöscht.</translation>
+        </message>
+        <message>
+            <source>%1 outlines and the parameters are lost.</source>
+            <translation>%1 Konturen und die Parameter gehen verloren.</translation>
+        </message>
+        <message>
+            <source>Delete</source>
+            <translation>Löschen</translation>
+        </message>
+        <message>
+            <source>&amp;Export pictures and report…</source>
+            <translation>Bilder und Bericht &amp;exportieren…</translation>
+        </message>
+        <message>
+            <source>&amp;Put the second reader's outlines away</source>
+            <translation>Konturen des zweiten Befunders &amp;weglegen</translation>
+        </message>
+        <message>
+            <source>Outlines and parameters of this case are not saved.</source>
+            <translation>Konturen und Parameter dieses Falls sind nicht gespeichert.</translation>
+        </message>
+        <message>
+            <source>Outlines of this case are not saved.</source>
+            <translation>Konturen dieses Falls sind nicht gespeichert.</translation>
+        </message>
+        <message>
+            <source>Parameters of this case are not saved.</source>
+            <translation>Parameter dieses Falls sind nicht gespeichert.</translation>
+        </message>
+        <message>
+            <source>Not saved</source>
+            <translation>Nicht gespeichert</translation>
+        </message>
+        <message>
+            <source>Parameters are roles and answers about series, the model, bar, hoist and holds.</source>
+            <translation>Parameter sind Rollen von Serien und Antworten zu ihnen, das Modell, Stab, Zug und gehaltene Blöcke.</translation>
+        </message>
+        <message>
+            <source>Drafts and marks of slices are among them.</source>
+            <translation>Entwürfe und Vermerke zu Schichten gehören dazu.</translation>
+        </message>
+        <message>
+            <source>%1 outlines are there. Those of the file take their place.</source>
+            <translation>%1 Konturen sind da. Die der Datei treten an ihre Stelle.</translation>
+        </message>
+        <message>
+            <source>Undo brings them back, as long as this case is open.</source>
+            <translation>Rückgängig holt sie zurück, solange dieser Fall offen ist.</translation>
+        </message>
+        <message>
+            <source>Replace</source>
+            <translation>Ersetzen</translation>
+        </message>
+        <message>
+            <source>MRI and elastogram</source>
+            <translation>MRT und Elastogramm</translation>
+        </message>
+        <message>
+            <source>Use them together all the same? Yes is kept in the case and in the record of every run. No leaves the elastogram out: outlines can be drawn, stiffness is not measured.</source>
+            <translation>Trotzdem zusammen verwenden? Ja steht dann im Fall und im Protokoll jedes Laufs. Bei Nein bleibt das Elastogramm weg: Konturen lassen sich zeichnen, Steifigkeit wird nicht gemessen.</translation>
+        </message>
+        <message>
+            <source>What does the elastogram hold?</source>
+            <translation>Was enthält das Elastogramm?</translation>
+        </message>
+        <message>
+            <source>Shear modulus µ</source>
+            <translation>Schubmodul µ</translation>
+        </message>
+        <message>
+            <source>Young's modulus E</source>
+            <translation>Elastizitätsmodul E</translation>
+        </message>
+        <message>
+            <source>Choose</source>
+            <translation>Wählen</translation>
+        </message>
+        <message>
+            <source>Pa, kPa, or a factor before kPa: 0.01kPa where 350 stands for 3.5 kPa</source>
+            <translation>Pa, kPa oder ein Faktor vor kPa: 0.01kPa, wenn 350 für 3.5 kPa steht</translation>
+        </message>
+        <message>
+            <source>Quantity</source>
+            <translation>Größe</translation>
+        </message>
+        <message>
+            <source>Unit</source>
+            <translation>Einheit</translation>
+        </message>
+        <message>
+            <source>MR elastography reports the shear modulus unless it says otherwise; Young's modulus is about three times as large. The answer is kept in the case.</source>
+            <translation>MR-Elastographie gibt den Schubmodul an, wenn sie nichts anderes sagt; der Elastizitätsmodul ist etwa dreimal so groß. Die Antwort steht im Fall.</translation>
         </message>
     </context>
     <context>
@@ -2089,6 +2209,62 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>Comparing readers</source>
             <translation>Befunder werden verglichen</translation>
+        </message>
+        <message>
+            <source>The outlines have another frame of reference than this MRI: check that they lie where they did.</source>
+            <translation>Die Konturen haben ein anderes Bezugssystem als dieses MRT: prüfen, ob sie noch da liegen, wo sie lagen.</translation>
+        </message>
+        <message>
+            <source>Exporting</source>
+            <translation>Exportiert</translation>
+        </message>
+        <message>
+            <source>These outlines belong to another patient than the images that are open.</source>
+            <translation>Diese Konturen gehören zu einem anderen Patienten als die offenen Bilder.</translation>
+        </message>
+        <message>
+            <source>These outlines were drawn on images of another day than those that are open. Open these images, or choose outlines that were drawn on the open ones.</source>
+            <translation>Diese Konturen wurden auf Bildern eines anderen Tages gezeichnet als den offenen. Diese Bilder öffnen oder Konturen wählen, die auf den offenen gezeichnet wurden.</translation>
+        </message>
+        <message>
+            <source>These outlines have another frame of reference than the MRI: they may lie elsewhere in the patient.</source>
+            <translation>Diese Konturen haben ein anderes Bezugssystem als das MRT: sie können woanders im Patienten liegen.</translation>
+        </message>
+        <message>
+            <source>The elastogram is left out: series %1 is in colour, a picture of stiffness and not its values. Give the role to the grey-scale stiffness series.</source>
+            <translation>Das Elastogramm bleibt weg: Serie %1 ist farbig, ein Bild der Steifigkeit und nicht ihre Werte. Die Rolle gehört der Steifigkeitsserie in Graustufen.</translation>
+        </message>
+        <message>
+            <source>The MRI and the elastogram belong to different patients.</source>
+            <translation>MRT und Elastogramm gehören zu verschiedenen Patienten.</translation>
+        </message>
+        <message>
+            <source>The MRI and the elastogram were taken on different days.</source>
+            <translation>MRT und Elastogramm wurden an verschiedenen Tagen aufgenommen.</translation>
+        </message>
+        <message>
+            <source>The MRI and the elastogram have different frames of reference: the patient may have moved between them.</source>
+            <translation>MRT und Elastogramm haben verschiedene Bezugssysteme: der Patient kann sich dazwischen bewegt haben.</translation>
+        </message>
+        <message>
+            <source>Series %1 does not say what it holds, nor in which unit.</source>
+            <translation>Serie %1 sagt nicht, was sie enthält, und nicht, in welcher Einheit.</translation>
+        </message>
+        <message>
+            <source>no anatomical or magnitude MR series was found; give a series that role in the table</source>
+            <translation>keine anatomische oder Magnituden-MR-Serie gefunden; in der Tabelle einer Serie diese Rolle geben</translation>
+        </message>
+        <message>
+            <source>No stiffness series was found: outlines can be drawn, stiffness cannot be measured.</source>
+            <translation>Keine Steifigkeitsserie gefunden: Konturen lassen sich zeichnen, Steifigkeit lässt sich nicht messen.</translation>
+        </message>
+        <message>
+            <source>The elastogram holds Young's modulus; it is shown as shear modulus (Poisson's ratio %1).</source>
+            <translation>Das Elastogramm enthält den Elastizitätsmodul; gezeigt wird der Schubmodul (Querkontraktionszahl %1).</translation>
+        </message>
+        <message>
+            <source>No confidence map was found: every voxel with a stiffness counts.</source>
+            <translation>Keine Konfidenzkarte gefunden: jedes Voxel mit einer Steifigkeit zählt.</translation>
         </message>
     </context>
     <context>
