@@ -303,6 +303,14 @@
             <source>This key already means: %1</source>
             <translation>Diese Taste bedeutet schon: %1</translation>
         </message>
+        <message>
+            <source>Steps and menus</source>
+            <translation>Schritte und Menüs</translation>
+        </message>
+        <message>
+            <source>Step %1</source>
+            <translation>Schritt %1</translation>
+        </message>
     </context>
     <context>
         <name>glisson::panels::LiveBar</name>
@@ -827,6 +835,10 @@
         <message>
             <source>MR elastography reports the shear modulus unless it says otherwise; Young's modulus is about three times as large. The answer is kept in the case.</source>
             <translation>MR-Elastographie gibt den Schubmodul an, wenn sie nichts anderes sagt; der Elastizitätsmodul ist etwa dreimal so groß. Die Antwort steht im Fall.</translation>
+        </message>
+        <message>
+            <source>Research use only, not for clinical use</source>
+            <translation>Nur für die Forschung, nicht für die klinische Anwendung</translation>
         </message>
     </context>
     <context>
@@ -1570,6 +1582,26 @@
             <source>Accepted. It can still be edited; click beside it to draw the next.</source>
             <translation>Angenommen. Bleibt bearbeitbar; ein Klick daneben beginnt die nächste.</translation>
         </message>
+        <message>
+            <source>Median, smallest and largest value, mean weighted by area</source>
+            <translation>Median, kleinster und größter Wert, nach Fläche gewichtetes Mittel</translation>
+        </message>
+        <message>
+            <source>Fewer numbers</source>
+            <translation>Weniger Zahlen</translation>
+        </message>
+        <message>
+            <source>More numbers</source>
+            <translation>Mehr Zahlen</translation>
+        </message>
+        <message>
+            <source>median %1, smallest %2, largest %3 kPa (µ)</source>
+            <translation>Median %1, kleinster %2, größter %3 kPa (µ)</translation>
+        </message>
+        <message>
+            <source>; mean weighted by area %1 kPa (µ)</source>
+            <translation>; nach Fläche gewichtetes Mittel %1 kPa (µ)</translation>
+        </message>
     </context>
     <context>
         <name>glisson::panels::PlacementEditor</name>
@@ -1948,6 +1980,22 @@ Name des Bereichs:</translation>
         <message>
             <source>no reliable wave</source>
             <translation>keine verlässliche Welle</translation>
+        </message>
+        <message>
+            <source> px</source>
+            <translation> px</translation>
+        </message>
+        <message>
+            <source>Freehand: a vertex every so many pixels of the screen</source>
+            <translation>Freihand: so viele Bildschirmpixel von Ecke zu Ecke</translation>
+        </message>
+        <message>
+            <source>Spacing of freehand vertices</source>
+            <translation>Abstand der Freihand-Ecken</translation>
+        </message>
+        <message>
+            <source>The stiffness scale is 0–8 or 0–20 kPa, so that a colour always means the same: %1.</source>
+            <translation>Die Steifigkeitsskala geht bis 8 oder bis 20 kPa, damit eine Farbe immer dasselbe bedeutet: %1.</translation>
         </message>
     </context>
     <context>
@@ -2659,6 +2707,42 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
             <source>zoom, the drawing is kept</source>
             <translation>Zoom, die Zeichnung bleibt</translation>
         </message>
+        <message>
+            <source>Click at the crosshair: vertex, close on the first one, select</source>
+            <translation>Klick am Fadenkreuz: Ecke, auf der ersten schließen, auswählen</translation>
+        </message>
+        <message>
+            <source>Crosshair left by 1 pixel</source>
+            <translation>Fadenkreuz 1 Pixel nach links</translation>
+        </message>
+        <message>
+            <source>Crosshair left by 10 pixels</source>
+            <translation>Fadenkreuz 10 Pixel nach links</translation>
+        </message>
+        <message>
+            <source>Crosshair right by 1 pixel</source>
+            <translation>Fadenkreuz 1 Pixel nach rechts</translation>
+        </message>
+        <message>
+            <source>Crosshair right by 10 pixels</source>
+            <translation>Fadenkreuz 10 Pixel nach rechts</translation>
+        </message>
+        <message>
+            <source>Crosshair up by 1 pixel</source>
+            <translation>Fadenkreuz 1 Pixel nach oben</translation>
+        </message>
+        <message>
+            <source>Crosshair up by 10 pixels</source>
+            <translation>Fadenkreuz 10 Pixel nach oben</translation>
+        </message>
+        <message>
+            <source>Crosshair down by 1 pixel</source>
+            <translation>Fadenkreuz 1 Pixel nach unten</translation>
+        </message>
+        <message>
+            <source>Crosshair down by 10 pixels</source>
+            <translation>Fadenkreuz 10 Pixel nach unten</translation>
+        </message>
     </context>
     <context>
         <name>commands</name>
@@ -2749,6 +2833,97 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>unmark slice</source>
             <translation>Markierung aufheben</translation>
+        </message>
+    </context>
+    <context>
+        <name>tools</name>
+        <message>
+            <source>Closed. Drag vertices to adjust, Enter to accept.</source>
+            <translation>Geschlossen. Ecken ziehen zum Anpassen, Enter nimmt an.</translation>
+        </message>
+        <message>
+            <source>The outline crosses itself. Move a vertex, or press Enter to accept it all the same.</source>
+            <translation>Die Kontur kreuzt sich selbst. Eine Ecke verschieben, oder mit Enter trotzdem annehmen.</translation>
+        </message>
+        <message>
+            <source>The outline crosses itself. Press Enter again to accept it all the same.</source>
+            <translation>Die Kontur kreuzt sich selbst. Noch einmal Enter nimmt sie trotzdem an.</translation>
+        </message>
+        <message>
+            <source>The outline crosses itself now and is a draft again. Move a vertex, or press Enter to accept it all the same.</source>
+            <translation>Die Kontur kreuzt sich jetzt selbst und ist wieder ein Entwurf. Eine Ecke verschieben, oder mit Enter trotzdem annehmen.</translation>
+        </message>
+        <message>
+            <source>A region needs three different vertices, this outline has %1.</source>
+            <translation>Eine Region braucht drei verschiedene Ecken, diese Kontur hat %1.</translation>
+        </message>
+        <message>
+            <source>A region needs at least %1 voxels, this outline holds %2. Draw it larger.</source>
+            <translation>Eine Region braucht mindestens %1 Voxel, diese Kontur enthält %2. Größer zeichnen.</translation>
+        </message>
+        <message>
+            <source>Not changed: a region needs three different vertices, this outline would have %1.</source>
+            <translation>Nicht geändert: Eine Region braucht drei verschiedene Ecken, diese Kontur hätte %1.</translation>
+        </message>
+        <message>
+            <source>Not changed: a region needs at least %1 voxels, this outline would hold %2.</source>
+            <translation>Nicht geändert: Eine Region braucht mindestens %1 Voxel, diese Kontur enthielte %2.</translation>
+        </message>
+        <message>
+            <source>%1</source>
+            <translation>%1</translation>
+        </message>
+        <message>
+            <source>Parked as a draft. Backspace takes it up again, Esc discards it.</source>
+            <translation>Als Entwurf geparkt. Rücktaste nimmt ihn wieder auf, Esc verwirft ihn.</translation>
+        </message>
+        <message>
+            <source>Parked as a draft on slice %1. Click it there: Backspace takes it up again, Esc discards it.</source>
+            <translation>Als Entwurf auf Schicht %1 geparkt. Dort anklicken: Rücktaste nimmt ihn wieder auf, Esc verwirft ihn.</translation>
+        </message>
+        <message>
+            <source>Draft discarded; undo brings it back.</source>
+            <translation>Entwurf verworfen; Rückgängig holt ihn zurück.</translation>
+        </message>
+        <message>
+            <source>Fewer than three vertices would be left: the whole outline is deleted.</source>
+            <translation>Es blieben weniger als drei Ecken: Die ganze Kontur wird gelöscht.</translation>
+        </message>
+        <message>
+            <source>An outline inside a region becomes a hole.</source>
+            <translation>Eine Kontur in einer Region wird ein Loch.</translation>
+        </message>
+        <message>
+            <source>Once accepted, this outline replaces the interpolated ones of the slice.</source>
+            <translation>Sobald angenommen, ersetzt diese Kontur die interpolierten der Schicht.</translation>
+        </message>
+        <message>
+            <source>There is no outline on this slice to sculpt.</source>
+            <translation>Auf dieser Schicht gibt es keine Kontur zum Formen.</translation>
+        </message>
+        <message>
+            <source>Select an outline first: click its edge.</source>
+            <translation>Zuerst eine Kontur auswählen: ihren Rand anklicken.</translation>
+        </message>
+        <message>
+            <source>Cut in two.</source>
+            <translation>In zwei geteilt.</translation>
+        </message>
+        <message>
+            <source>Split needs an edge (two neighbours) or two vertices apart.</source>
+            <translation>Teilen braucht eine Kante (zwei Nachbarn) oder zwei Ecken, die auseinanderliegen.</translation>
+        </message>
+        <message>
+            <source>Trim needs more vertices: at least three stay.</source>
+            <translation>Stutzen braucht mehr Ecken: Mindestens drei bleiben.</translation>
+        </message>
+        <message>
+            <source>This outline is left out of the region.</source>
+            <translation>Diese Kontur wird aus der Region ausgelassen.</translation>
+        </message>
+        <message>
+            <source>This outline counts.</source>
+            <translation>Diese Kontur zählt.</translation>
         </message>
     </context>
 </TS>

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Every text of the window has its German: what lupdate finds in the sources, the table of keys and gestures, and the
-names of undo steps, against the catalogue.
+"""Every text of the window has its German: what lupdate finds in the sources, the table of keys and gestures, the names
+of undo steps, what the outline tools say, and the line about research use, against the catalogue.
 
 usage: check_translations.py ROOT LUPDATE    prints what is missing, exits 1 where anything is
        check_translations.py --self-test ROOT LUPDATE    takes one translation of each kind away and checks that it is missed
@@ -45,6 +45,18 @@ def command_texts(root):
     return texts
 
 
+def sentences(root):
+    """What the outline tools say in the status line."""
+    source = (root / "ui/tools/sentences.h").read_text(encoding="utf-8")
+    return set(re.findall(r"constexpr const char\* \w+ =\s*" + STRING + ";", source))
+
+
+def window_texts(root):
+    """The one text of the window that is a constant of the whole program."""
+    source = (root / "core/base/version.h").read_text(encoding="utf-8")
+    return set(re.findall(r"constexpr const char\* researchUseOnly =\s*" + STRING + ";", source))
+
+
 def catalogue(path):
     """(context, source) -> translation, finished ones only; and the texts of unfinished ones."""
     finished, unfinished = {}, []
@@ -70,9 +82,11 @@ def missing(root, lupdate, german):
         subprocess.run([lupdate, "-silent", "-no-obsolete", "-disable-heuristic", "sametext", str(root / "ui"),
                         str(root / "app" / "glisson"), "-ts", str(copy)], check=True)
         found += [f"{context}: {text}" for context, text in catalogue(copy)[1]]
-    # These two contexts are looked up by name, so that lupdate does not see them.
-    for context, texts in (("keymap", table_texts(root)), ("commands", command_texts(root))):
-        if len(texts) < 8:
+    # These are looked up by name, so that lupdate does not see them.
+    for context, texts, least in (("keymap", table_texts(root), 8), ("commands", command_texts(root), 8),
+                                  ("tools", sentences(root), 8),
+                                  ("glisson::panels::MainWindow", window_texts(root), 1)):
+        if len(texts) < least:
             found.append(f"{context}: the sources were not understood; has the table another form?")
         found += [f"{context}: {t}" for t in sorted(texts) if (context, t) not in finished]
     # A number or name that gets lost on the way.
@@ -92,7 +106,7 @@ def main(arguments):
         print("\n".join(found) or "every text has its German")
         return 1 if found else 0
     text = german.read_text(encoding="utf-8")
-    for context in ("glisson::panels::ComparePage", "keymap", "commands"):
+    for context in ("glisson::panels::ComparePage", "keymap", "commands", "tools"):
         start = text.index(f"<name>{context}</name>")
         source = re.search(r"<source>(.*?)</source>\s*<translation>[^<]+</translation>", text[start:], re.S)
         with tempfile.TemporaryDirectory() as folder:
