@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "anatomy/centreline.h"
-#include "anatomy/surface.h"
+#include "anatomy/isosurface.h"
 #include "anatomy/vesselness.h"
 #include "base/error.h"
 #include "image/components.h"
+#include "image/distance.h"
 #include "image/morphology.h"
 #include "image/resample.h"
 
@@ -162,6 +163,39 @@ image::Mask vesselVoxels(const Working& w, const image::ScalarVolume& line, Vess
   return image::fillHoles(selected(mask, above, model.contrast, options));
 }
 
+/// Surface of the voxels together with the tubes of the centreline, none thinner than least_mm: the smooth surface of a
+/// branch one voxel wide alone would break into drops or vanish, and its landmarks would hang in the air.
+TriangleMesh vesselSurface(const image::Mask& mask, const Centreline& line, double least_mm) {
+  image::ScalarVolume depth_mm = image::distanceToBoundary_mm(mask);
+  const image::Grid& grid = mask.grid;
+  const double h_mm = grid.spacing_mm.minCoeff();
+  const auto ball = [&](const Eigen::Vector3d& p_lps, double radius_mm) {
+    radius_mm = std::max(radius_mm, least_mm);
+    const Eigen::Vector3d centre = grid.lpsToIndex(p_lps);
+    const Eigen::Vector3i at = centre.array().round().cast<int>();
+    const int reach = static_cast<int>(std::ceil(radius_mm / h_mm)) + 2;
+    for (int k = -reach; k <= reach; ++k)
+      for (int j = -reach; j <= reach; ++j)
+        for (int i = -reach; i <= reach; ++i) {
+          const Eigen::Vector3i voxel = at + Eigen::Vector3i(i, j, k);
+          if (!grid.contains(voxel)) continue;
+          const double off_mm = ((voxel.cast<double>() - centre).cwiseProduct(grid.spacing_mm)).norm();
+          depth_mm.at(voxel) = std::max(depth_mm.at(voxel), static_cast<float>(radius_mm - off_mm));
+        }
+  };
+  for (std::size_t n = 0; n < line.points_lps_mm.size(); ++n) ball(line.points_lps_mm[n], line.radius_mm[n]);
+  for (const auto& [a, b] : line.edges) {
+    const auto from = static_cast<std::size_t>(a), to = static_cast<std::size_t>(b);
+    const Eigen::Vector3d step = line.points_lps_mm[to] - line.points_lps_mm[from];
+    const int steps = static_cast<int>(std::ceil(step.norm() / (0.5 * h_mm)));
+    for (int n = 1; n < steps; ++n) {
+      const double t = static_cast<double>(n) / steps;
+      ball(line.points_lps_mm[from] + t * step, (1.0 - t) * line.radius_mm[from] + t * line.radius_mm[to]);
+    }
+  }
+  return isosurface(depth_mm, 0.0, 10);
+}
+
 }  // namespace
 
 VesselModel findVessels(const image::ScalarVolume& mri, const image::Mask& liver, const VesselOptions& options,
@@ -185,11 +219,11 @@ VesselModel findVessels(const image::ScalarVolume& mri, const image::Mask& liver
   progress.report(0.8, "vessel centrelines");
   Centreline centreline = centrelineOf(model.mask);
   model.tree = treeOf(centreline);
+  progress.report(0.9, "vessel surface");
+  model.surface = vesselSurface(model.mask, centreline, options.smallestRadius_mm);
   model.centreline_lps_mm = std::move(centreline.points_lps_mm);
   model.radius_mm = std::move(centreline.radius_mm);
   model.edges = std::move(centreline.edges);
-  progress.report(0.9, "vessel surface");
-  model.surface = liverSurface(model.mask, {w.image.grid.spacing_mm.x(), 10});
   model.note = std::to_string(image::components(model.mask).voxels.size()) + " connected vessels, " +
                std::to_string(model.tree.branches.size()) + " branches, " +
                std::to_string(model.centreline_lps_mm.size()) + " landmarks";

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "anatomy/vessels.h"
+#include "anatomy/voxelise.h"
 #include "image/io.h"
+#include "image/morphology.h"
 #include "lattices.h"
 #include "phantom/phantom.h"
 #include "support/support.h"
@@ -60,6 +62,14 @@ TEST_P(VesselsOfPhantoms, LieOnTheTrueCentreLines) {
   EXPECT_GT(found / wide, 0.95);
   std::printf("  %s; off the true lines %.2f mm mean, %.2f mm for 95 %%; %.0f %% of the wide ones found\n",
               v.note.c_str(), mean, p95, 100 * found / wide);
+
+  // No landmark hangs in the air: it lies in what is drawn, also where a branch is one voxel wide.
+  const image::Mask drawn = voxelise(v.surface, v.mask.grid);
+  std::size_t outside = 0;
+  for (const Eigen::Vector3d& p : v.centreline_lps_mm)
+    outside += drawn.at(Eigen::Vector3i(drawn.grid.lpsToIndex(p).array().round().cast<int>())) == 0 ? 1 : 0;
+  EXPECT_LE(100 * outside, v.centreline_lps_mm.size()) << outside;
+  EXPECT_NEAR(static_cast<double>(image::count(drawn)) / static_cast<double>(image::count(v.mask)), 1.0, 0.25);
 
   // A forest: every branch starts at the end of its parent, one order further from the root, parents first. Each tree
   // has one branch without a parent, for a root is an end: nothing else leaves it.
