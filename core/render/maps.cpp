@@ -231,6 +231,7 @@ Picture differencePicture(const RetractionScene& scene, const MapOptions& option
   frame.notes = {sliceNote(k, grid) + text};
   frame.caption = scene.caption.empty() ? options.caption : scene.caption;
   frame.mark = scene.mark;
+  frame.ring_lps_mm = options.ring_lps_mm;
   frame.colourBar =
       ColourBar{.map = map, .low = options.low, .high = top, .title = "|u MRE − u atlas| (mm)", .mark = limit};
   frame.colourBar->markColour = isolineColour;

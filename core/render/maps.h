@@ -20,6 +20,7 @@ struct MapOptions {
   std::string title{};
   std::string caption{};              ///< holds no patient text
   std::optional<double> margin_mm{};  ///< cut to the contours (or the liver) plus this margin; unset: the whole slice
+  std::optional<Eigen::Vector3d> ring_lps_mm{};  ///< a place to mark
 };
 
 /// A stiffness map, one colour per voxel, no smoothing. barTitle names quantity and unit ("Shear modulus µ (kPa)").

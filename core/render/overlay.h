@@ -53,6 +53,8 @@ struct SliceOverlayOptions {
   bool outlines = true;   ///< of the moved liver and vessels, in each channel
   std::optional<Eigen::Vector3d> zoomCentre_lps_mm{};  ///< draw an inset magnified around this point
   double zoom_mm = 40.0;
+  bool zoomBelow = false;  ///< the inset under the slice instead of beside it: for a place higher than wide
+  std::optional<Eigen::Vector3d> ring_lps_mm{};  ///< a place to mark, as it is seen in this picture
   bool arrows = false;      ///< displacement of both answers, true to scale, with a reference of 10 mm
   double arrows_mm = 12.0;  ///< between arrows; wider apart where there would be more than mostArrows
   std::optional<double>
@@ -103,6 +105,7 @@ struct SceneOptions3D {
   int height = 1200;
   double t = 1.0;  ///< fraction of the displacement shown, 0 = rest
   bool decorate = true;
+  bool retractor = true;    ///< the bar; false where the caller draws one that moves
   bool arrows = false;      ///< displacement of both answers times t, true to scale
   double arrows_mm = 18.0;  ///< between arrows; wider apart where there would be more than mostArrows
 };

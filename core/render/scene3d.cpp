@@ -283,7 +283,8 @@ void populateScaled(vtkRenderer* renderer, const RetractionScene& scene, const S
   if (scene.retractorPoint_lps_mm) {
     const Eigen::Vector3d contact = moving(mre)(*scene.retractorPoint_lps_mm);
     const Eigen::Vector3d centre = contact - 0.5 * scene.retractorDiameter_mm * scene.retractorDirection.normalized();
-    stage.add(steelBar(centre, scene.retractorAxis, scene.retractorLength_mm, scene.retractorDiameter_mm));
+    if (options.retractor)
+      stage.add(steelBar(centre, scene.retractorAxis, scene.retractorLength_mm, scene.retractorDiameter_mm));
     for (const double end : {-0.5, 0.5})
       box.extend(Eigen::Vector3d(centre + end * scene.retractorLength_mm * scene.retractorAxis.normalized()));
   }

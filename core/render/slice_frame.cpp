@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "render/font.h"
 
@@ -65,6 +66,21 @@ void drawTicks(RasterPainter& paint, const SlicePlane& plane, double spacing_mm,
     paint.text({x0 - 0.55 * font_px, y + 0.3 * font_px}, number(v / 10.0), beside);
   }
   paint.text({x0 - 0.55 * font_px, y0 + plane.height + 1.2 * font_px}, "cm", beside);
+}
+
+/// A ring around a place of the plane that lies within width x height pixels from (x0, y0).
+void drawRing(RasterPainter& paint, const SlicePlane& plane, const Eigen::Vector3d& p_lps, double x0, double y0,
+              double radius) {
+  const Point at = plane.toPixel(p_lps);
+  if (at.x() < 0.0 || at.y() < 0.0 || at.x() > plane.width || at.y() > plane.height) return;
+  constexpr int corners = 40;
+  std::vector<Point> ring;
+  for (int n = 0; n <= corners; ++n) {
+    const double angle = 2.0 * std::numbers::pi * n / corners;
+    ring.push_back(at + Point(x0, y0) + radius * Point(std::cos(angle), std::sin(angle)));
+  }
+  paint.polyline(ring, {.colour = {0, 0, 0}, .width = 0.3 * radius + 2.0, .alpha = 0.7});
+  paint.polyline(ring, {.colour = warning, .width = 0.3 * radius});
 }
 
 double legendWidth(const std::vector<LegendItem>& legend, double font_px) {
@@ -136,7 +152,7 @@ Picture frameSlice(const Picture& image, const SliceFrame& frame) {
   const double gap = 1.4 * font;
   double right = gap;
   const double bar = frame.colourBar ? 6.4 * font : 0.0;
-  if (frame.inset) right += frame.inset->width + gap;
+  if (frame.inset && !frame.insetBelow) right += frame.inset->width + gap;
   const double wanted = std::max({legendWidth(frame.legend, font), textWidth(researchUseOnly, font),
                                   textWidth(frame.title, 1.2 * font, true)}) +
                         left;
@@ -152,9 +168,12 @@ Picture frameSlice(const Picture& image, const SliceFrame& frame) {
 
   const double lineHeight = 1.5 * font;
   const double legendRows = frame.legend.empty() ? 0.0 : 1.9 * font;
-  const double bottom = (frame.gridTicks_mm ? 1.6 * font : 0.5 * font) + legendRows +
+  const double ticks = frame.gridTicks_mm ? 1.6 * font : 0.5 * font;
+  const double bottom = ticks + legendRows +
                         lineHeight * static_cast<double>(notes.size() + mark.size() + caption.size() + 1) + 0.9 * font;
-  const double body = std::max(image.height, frame.inset ? frame.inset->height : 0);
+  const double insetHeight = frame.inset ? frame.inset->height + (frame.insetTitle.empty() ? 0.0 : 1.6 * font) : 0.0;
+  const double body = frame.insetBelow && frame.inset ? image.height + ticks + insetHeight
+                                                      : std::max<double>(image.height, insetHeight);
   const int height = static_cast<int>(std::ceil(top + body + bottom));
 
   Picture out = blankPicture(width, height, night);
@@ -167,21 +186,27 @@ Picture frameSlice(const Picture& image, const SliceFrame& frame) {
   if (frame.gridTicks_mm) drawTicks(paint, frame.plane, *frame.gridTicks_mm, x0, y0, font);
   drawOrientation(paint, frame.plane, x0, y0, image.width, image.height, font);
   drawScaleBar(paint, x0 + font, y0 + image.height - 0.9 * font, frame.plane.mmPerPixel, 0.3 * image.width, font);
+  if (frame.ring_lps_mm) drawRing(paint, frame.plane, *frame.ring_lps_mm, x0, y0, 0.6 * font);
   if (frame.colourBar)
     drawColourBar(paint, *frame.colourBar, x0 + image.width + font, y0 + 0.5 * font, image.height - font, font);
 
   if (frame.inset && frame.insetPlane) {
     const SlicePlane& zoom = *frame.insetPlane;
-    const int ix = static_cast<int>(x0 + image.width + bar + gap), iy = y0;
+    const bool below = frame.insetBelow;
+    const int ix = below ? x0 : static_cast<int>(x0 + image.width + bar + gap);
+    const int iy = below ? static_cast<int>(y0 + image.height + ticks) : y0;
     const Point low = frame.plane.toPixel(zoom.corner_lps) + Point(x0, y0);
     const double side = zoom.width * zoom.mmPerPixel / frame.plane.mmPerPixel;
     const Stroke white{.colour = {255, 255, 255}, .width = std::max(1.5, font / 12.0)};
     const Stroke tie{.colour = {255, 255, 255}, .width = 1.0, .dashed = true, .alpha = 0.6};
     paint.frame(low.x(), low.y(), low.x() + side, low.y() + side, white);
-    paint.line({low.x() + side, low.y()}, {static_cast<double>(ix), static_cast<double>(iy)}, tie);
-    paint.line({low.x() + side, low.y() + side}, {static_cast<double>(ix), iy + static_cast<double>(zoom.height)}, tie);
+    const Point near = low + (below ? Point(0.0, side) : Point(side, 0.0)), far = low + Point(side, side);
+    const Point corner(ix, iy), next = corner + (below ? Point(zoom.width, 0.0) : Point(0.0, zoom.height));
+    paint.line(near, corner, tie);
+    paint.line(far, next, tie);
     paste(out, *frame.inset, ix, iy);
     paint.frame(ix, iy, ix + zoom.width, iy + zoom.height, white);
+    if (frame.ring_lps_mm) drawRing(paint, zoom, *frame.ring_lps_mm, ix, iy, font);
     const double ruler_px = 5.0 / zoom.mmPerPixel, rx = ix + font, ry = iy + zoom.height - font;
     paint.rectangle(rx - 2, ry - 0.5 * font - 2, rx + ruler_px + 2, ry + 2, {0, 0, 0}, 0.6);
     paint.line({rx, ry - 0.2 * font}, {rx + ruler_px, ry - 0.2 * font}, {.colour = warning, .width = 3.0});
@@ -195,7 +220,7 @@ Picture frameSlice(const Picture& image, const SliceFrame& frame) {
                  {.size_px = font, .colour = light});
   }
 
-  double y = top + body + (frame.gridTicks_mm ? 1.6 * font : 0.5 * font);
+  double y = top + body + (frame.insetBelow && frame.inset ? 0.0 : ticks);
   if (!frame.legend.empty()) {
     drawLegend(paint, frame.legend, left, y + 1.3 * font, font);
     y += legendRows;

@@ -34,7 +34,9 @@ struct SliceFrame {
   std::string mark{};                    ///< a reservation, wrapped, in the colour of warnings; may be empty
   std::optional<double> gridTicks_mm{};  ///< labels (cm) for grid lines at this spacing
   std::optional<ColourBar> colourBar{};
-  const Picture* inset = nullptr;  ///< drawn to the right; square
+  const Picture* inset = nullptr;  ///< drawn to the right, or below; square
+  bool insetBelow = false;
+  std::optional<Eigen::Vector3d> ring_lps_mm{};  ///< a place to mark, in the image and in the inset
   std::optional<SlicePlane> insetPlane{};
   std::string insetTitle{};
 };

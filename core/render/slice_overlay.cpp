@@ -317,6 +317,7 @@ Picture overlayOf(const Composer& composer, const RetractionScene& scene, const 
   frame.caption = scene.caption;
   frame.mark = scene.mark;
   frame.gridTicks_mm = options.grid_mm;
+  frame.ring_lps_mm = options.ring_lps_mm;
   Picture inset;
   if (options.zoomCentre_lps_mm) {
     const int side = std::max(160, static_cast<int>(0.78 * std::min(picture.width, picture.height)));
@@ -324,6 +325,7 @@ Picture overlayOf(const Composer& composer, const RetractionScene& scene, const 
     inset = composer.draw(*frame.insetPlane, options);
     if (!scene.valid) drawNotValid(inset);
     frame.inset = &inset;
+    frame.insetBelow = options.zoomBelow;
     frame.insetTitle =
         formatted("× %.1f, %g mm wide", plane.mmPerPixel / frame.insetPlane->mmPerPixel, options.zoom_mm);
   }

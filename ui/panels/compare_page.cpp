@@ -71,7 +71,7 @@ ComparePage::ComparePage(session::Session& session, QWidget* parent)
   row->addWidget(makeSide());
   connect(slice_, &QSlider::valueChanged, this, [this] {
     chosen_ = true;
-    zoom_.reset();
+    vessel_.reset();
     drawSlice();
   });
   connect(overlay_, &views::PictureView::sliceWanted, this,
@@ -157,7 +157,10 @@ QWidget* ComparePage::makeSide() {
   export_->setEnabled(false);
   side->addWidget(export_);
   connect(export_, &QPushButton::clicked, this, &ComparePage::askWhereTo);
-  connect(what_, &QComboBox::currentIndexChanged, this, &ComparePage::drawSlice);
+  connect(what_, &QComboBox::currentIndexChanged, this, [this](int index) {
+    magnify_->setEnabled(index == 0);
+    drawSlice();
+  });
   connect(chart_, &QComboBox::currentIndexChanged, this, [this](int index) {
     beside_->setCurrentIndex(index);
     view_->setEnabled(index == 0);
@@ -179,7 +182,7 @@ void ComparePage::showResult() {
   const auto picture = session_.picture();
   scene_->setScene(picture);
   slice_->setEnabled(picture != nullptr);
-  zoom_.reset();
+  vessel_.reset();
   showVessels();
   drawBoxes();
   if (!picture) {
@@ -195,6 +198,15 @@ void ComparePage::showResult() {
   showNumbers();
 }
 
+bool ComparePage::insetBelow() const {
+  return overlay_->height() > overlay_->width();
+}
+
+void ComparePage::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  if (magnify_->isChecked() && what_->currentIndex() == 0 && insetBelow() != zoomIsBelow_) drawSlice();
+}
+
 void ComparePage::drawSlice() {
   const auto picture = session_.picture();
   if (!picture) return;
@@ -208,8 +220,10 @@ void ComparePage::drawSlice() {
   options.palette = palette_();
   options.margin_mm = 40.0;
   options.arrows = arrows_->isChecked();
+  options.zoomBelow = insetBelow();
+  zoomIsBelow_ = options.zoomBelow;
   const bool magnify = magnify_->isChecked();
-  const auto zoom = zoom_;
+  const std::optional<session::VesselPlace> vessel = vessel_;
   const bool difference = what_->currentIndex() == 1;
   struct Drawn {
     render::Picture picture;
@@ -217,16 +231,19 @@ void ComparePage::drawSlice() {
   };
   auto drawn = std::make_shared<Drawn>();
   painter_.start(
-      [picture, options, drawn, difference, magnify, zoom](const Progress&) mutable {
+      [picture, options, drawn, difference, magnify, vessel](const Progress&) mutable {
         // The first picture is of the slice where MRE and atlas differ most.
         if (options.slice < 0) options.slice = render::sliceOfLargestDifference(*picture);
         drawn->slice = options.slice;
         if (magnify)
-          options.zoomCentre_lps_mm = zoom ? *zoom : pipeline::placeOfLargestDifference(*picture, options.slice);
+          options.zoomCentre_lps_mm =
+              vessel ? vessel->seen_lps : pipeline::placeOfLargestDifference(*picture, options.slice);
+        if (vessel) options.ring_lps_mm = vessel->seen_lps;
         if (difference) {
           render::MapOptions map{.high = 10.0};
           map.slice = options.slice;
           map.margin_mm = options.margin_mm;
+          if (vessel) map.ring_lps_mm = vessel->rest_lps;
           drawn->picture = render::differencePicture(*picture, map);
         } else {
           drawn->picture = render::sliceOverlay(*picture, options);

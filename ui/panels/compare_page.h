@@ -42,6 +42,9 @@ class ComparePage : public QWidget {
   void placeChosen(const Eigen::Vector3d& p_lps);   ///< in the list or in 3-D: at rest
   void exported(int files, const QString& reason);  ///< reason: empty where it went well
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   QWidget* makeSide();
   void showResult();
@@ -50,6 +53,7 @@ class ComparePage : public QWidget {
   void showVessel(int row);
   void markVessels(int chosen);
   void drawSlice();
+  bool insetBelow() const;
   void drawBoxes();
   void askWhereTo();
   QWidget* makeVesselList();
@@ -58,8 +62,9 @@ class ComparePage : public QWidget {
   session::Session& session_;
   session::Worker painter_;  ///< draws slice overlays; only the latest wish counts
   session::Worker charter_, exporter_;
-  std::vector<session::VesselPlace> places_;  ///< beyond 5 mm, as listed
-  std::optional<Eigen::Vector3d> zoom_;       ///< where the inset of the overlay looks
+  std::vector<session::VesselPlace> places_;    ///< beyond 5 mm, as listed
+  std::optional<session::VesselPlace> vessel_;  ///< chosen: where the inset of the overlay looks
+  bool zoomIsBelow_ = false;                    ///< in the picture on screen
   bool wanted_ = false;
   bool chosen_ = false;  ///< else the slice of the largest difference is to be found and shown
   views::PictureView* overlay_;

@@ -89,12 +89,12 @@ void ComparePage::markVessels(int chosen) {
 void ComparePage::showVessel(int row) {
   const auto picture = session_.picture();
   if (row < 0 || row >= static_cast<int>(places_.size()) || !picture) return;
-  zoom_ = places_[static_cast<std::size_t>(row)].seen_lps;
+  vessel_ = places_[static_cast<std::size_t>(row)];
   chosen_ = true;
   markVessels(row);
-  emit placeChosen(places_[static_cast<std::size_t>(row)].rest_lps);
+  emit placeChosen(vessel_->rest_lps);
   const QSignalBlocker quiet(slice_);
-  slice_->setValue(qRound(picture->mri.grid.lpsToIndex(*zoom_).z()));
+  slice_->setValue(qRound(picture->mri.grid.lpsToIndex(vessel_->seen_lps).z()));
   drawSlice();
 }
 

@@ -148,8 +148,7 @@ QWidget* RetractPage::makePlayBar() {
   // Playing shows the run; the hand shows the tool: one at a time.
   connect(live_, &LiveBar::liveChanged, this, [this](bool live) {
     if (live) setPlaying(false);
-    play_->setEnabled(!live && scene_->hasScene());
-    time_->setEnabled(!live && scene_->hasScene());
+    playBar_->setVisible(!live && scene_->hasScene() && moved_->isChecked());
   });
   connect(play_, &QPushButton::clicked, this, [this] { setPlaying(!clock_.isActive()); });
   connect(time_, &QSlider::valueChanged, this, [this](int value) {

@@ -190,7 +190,7 @@ void SceneView::compose(bool keepCamera) {
   auto options = options_;
   options.width = std::max(qRound(width() * devicePixelRatioF()), 64);
   options.height = std::max(qRound(height() * devicePixelRatioF()), 64);
-  if (layer_) options.t = 0.0;
+  if (layer_) options.t = 0.0, options.retractor = false;  // the live layer has the bar in hand
   painter_.change(composed, [scene = scene_, layer = layer_, options](vtkRenderer& renderer) {
     render::populate3D(&renderer, *scene, options);
     if (!layer) return;
