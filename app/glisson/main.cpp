@@ -5,11 +5,12 @@
 #include <QTranslator>
 #include <array>
 #include <iostream>
+#include <thread>
 #include <vector>
 
 #include "base/version.h"
 #include "panels/main_window.h"
-#include "panels/theme.h"
+#include "panels/theme_choice.h"
 #include "screenshot.h"
 
 namespace {
@@ -30,6 +31,7 @@ std::vector<Step> stepsNamed(const QString& name) {
 int main(int argc, char** argv) {
   QApplication app(argc, argv);
   QApplication::setApplicationName(QStringLiteral("glisson"));
+  QApplication::setOrganizationName(QStringLiteral("glisson"));  // where settings lie
   QApplication::setApplicationDisplayName(QStringLiteral("Glisson"));
   QApplication::setApplicationVersion(QString::fromStdString(glisson::version()));
   QApplication::setDesktopFileName(QStringLiteral("glisson"));
@@ -46,8 +48,9 @@ int main(int argc, char** argv) {
                                QStringLiteral("DICOM folder, DICOMDIR, ZIP archive or case.json to open."),
                                QStringLiteral("[folder]"));
   const QCommandLineOption synthetic(QStringLiteral("synthetic"), QStringLiteral("Open the synthetic patient."));
-  const QCommandLineOption theme(QStringLiteral("theme"), QStringLiteral("dark (default) or light."),
-                                 QStringLiteral("name"), QStringLiteral("dark"));
+  const QCommandLineOption theme(QStringLiteral("theme"),
+                                 QStringLiteral("dark or light; otherwise as chosen last, or as the desktop is."),
+                                 QStringLiteral("name"));
   const QCommandLineOption outlines(QStringLiteral("outlines"),
                                     QStringLiteral("With --screenshot: outlines to import."), QStringLiteral("file"));
   const QCommandLineOption run(QStringLiteral("run"), QStringLiteral("With --screenshot: run before the picture."));
@@ -65,9 +68,8 @@ int main(int argc, char** argv) {
   parser.addOptions({synthetic, theme, language, screenshot, step, slice, outlines, run});
   parser.process(app);
   const std::vector<Step> wantedSteps = stepsNamed(parser.value(step));
-  const bool light = parser.value(theme) == QLatin1String("light");
-  if (wantedSteps.empty() || (!light && parser.value(theme) != QLatin1String("dark")) ||
-      parser.positionalArguments().size() > 1) {
+  const auto wantedTheme = glisson::panels::themeNamed(parser.value(theme));
+  if (wantedSteps.empty() || (parser.isSet(theme) && !wantedTheme) || parser.positionalArguments().size() > 1) {
     std::cerr << "glisson: unknown step or theme, or more than one folder; see glisson --help\n";
     return 2;
   }
@@ -81,8 +83,13 @@ int main(int argc, char** argv) {
   const QLocale wanted = parser.isSet(language) ? QLocale(parser.value(language)) : system;
   if (translator.load(wanted, QStringLiteral("glisson"), QStringLiteral("_"), QStringLiteral(":/translations")))
     QApplication::installTranslator(&translator);
-  glisson::panels::applyTheme(light ? glisson::panels::Theme::Light : glisson::panels::Theme::Dark);
+  glisson::panels::applyTheme(wantedTheme ? *wantedTheme : glisson::panels::preferredTheme());
+  // What windows that were killed left in the cache.
+  const std::jthread cleaner([folder = glisson::session::Session::cacheFolder().toStdString()] {
+    glisson::session::WorkFolder::removeAbandoned(folder);
+  });
   glisson::panels::MainWindow window;
+  if (!parser.isSet(screenshot)) window.rememberPlace();
   window.show();
   const bool opening = parser.isSet(synthetic) || !parser.positionalArguments().isEmpty();
   if (parser.isSet(screenshot)) {

@@ -50,9 +50,23 @@ LoadPage::LoadPage(session::Session& session, QWidget* parent)
       stack_(new QStackedWidget),
       table_(new QTableWidget),
       skipped_(new QTreeWidget),
-      summary_(labelled({}, "faint")) {
+      summary_(labelled({}, "faint")),
+      noticeText_(labelled({}, "text")),
+      notice_(new QFrame),
+      answer_(
+          button("answerButton", tr("Answer…"), {}, tr("Asks again whether, and as what, the elastogram is used"))) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
+  notice_->setObjectName(QStringLiteral("loadNotice"));
+  auto* row = new QHBoxLayout(notice_);
+  row->setContentsMargins(24, 12, 24, 0);
+  noticeText_->setObjectName(QStringLiteral("loadNoticeText"));
+  row->addWidget(noticeText_, 1);
+  row->addWidget(answer_);
+  layout->addWidget(notice_);
+  connect(answer_, &QPushButton::clicked, this, &LoadPage::answerWanted);
+  connect(&session_, &session::Session::statusChanged, this, &LoadPage::showNotice);
+  showNotice();
   layout->addWidget(stack_);
   stack_->addWidget(makeWelcome());
   stack_->addWidget(makeTable());
@@ -144,6 +158,21 @@ QWidget* LoadPage::makeTable() {
   skipped_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
   layout->addWidget(skipped_, 1);
   return page;
+}
+
+void LoadPage::showNotice() {
+  const session::StepStatus status = session_.status(session::Step::Load);
+  const std::optional<session::Question>& question = session_.images().question;
+  QString text;
+  if (status.state == session::StepState::Failed)
+    text = tr("Not opened: %1").arg(status.detail);
+  else if (question && status.state != session::StepState::Running)
+    text = question->kind == session::Question::Kind::None
+               ? question->text
+               : tr("%1 The elastogram is left out until this is answered.").arg(question->text);
+  notice_->setVisible(!text.isEmpty());
+  noticeText_->setText(text);
+  answer_->setVisible(question && question->kind != session::Question::Kind::None && !session_.busy());
 }
 
 void LoadPage::fill() {

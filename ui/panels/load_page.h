@@ -4,6 +4,7 @@
 
 #include "session/worker.h"
 
+class QFrame;
 class QLabel;
 class QPushButton;
 class QStackedWidget;
@@ -26,17 +27,21 @@ class LoadPage : public QWidget {
   void openWanted();
   void syntheticWanted();
   void pathWanted(const QString& path);  ///< a recent one
+  void answerWanted();                   ///< to what the session wants to know about the elastogram
 
  private:
   QWidget* makeWelcome();
   QWidget* makeTable();
   void fill();
   void drawThumbnails();
+  void showNotice();  ///< why nothing was opened, or why the elastogram is left out
   session::Session& session_;
   QStackedWidget* stack_;
   QTableWidget* table_;
   QTreeWidget* skipped_;
-  QLabel* summary_;
+  QLabel *summary_, *noticeText_;
+  QFrame* notice_;
+  QPushButton* answer_;
   session::Worker painter_;  ///< of thumbnails
 };
 

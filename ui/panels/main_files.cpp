@@ -9,6 +9,7 @@
 #include <QSettings>
 #include <QStatusBar>
 
+#include "panels/compare_page.h"
 #include "panels/form.h"
 #include "panels/load_page.h"
 #include "panels/main_window.h"
@@ -40,8 +41,17 @@ void MainWindow::importOutlines() {
   const QString file =
       QFileDialog::getOpenFileName(this, tr("Import outlines"), session_.path(),
                                    tr("Outlines (*.dcm *.json *.nii *.nii.gz *.nrrd *.mha);;All files (*)"));
-  if (file.isEmpty()) return;
-  attempt(tr("Import outlines"), [&] { session_.importContours(file); });
+  if (!file.isEmpty()) importFrom(file);
+}
+
+void MainWindow::importFrom(const QString& file) {
+  if (!mayReplaceOutlines()) return;
+  attempt(tr("Import outlines"), [&] {
+    session_.importContours(file, [this](const QString& doubt) {
+      return confirmed("otherFrameBox", tr("Import outlines"), doubt,
+                       tr("Import them all the same? The answer is kept in the case."), tr("Import"));
+    });
+  });
   showStep(Step::Segment);
 }
 
@@ -53,9 +63,14 @@ void MainWindow::saveCase() {
 }
 
 void MainWindow::saveCaseAs() {
-  const QString folder = QFileDialog::getExistingDirectory(this, tr("Save case into a folder"));
-  if (folder.isEmpty()) return;
+  saveInto({});
+}
+
+bool MainWindow::saveInto(QString folder) {
+  if (folder.isEmpty()) folder = QFileDialog::getExistingDirectory(this, tr("Save case into a folder"));
+  if (folder.isEmpty()) return false;
   attempt(tr("Save case"), [&] { session_.saveCase(folder); });
+  return !session_.modified();
 }
 
 void MainWindow::openCase() {
@@ -77,6 +92,11 @@ void MainWindow::loadSecondReader() {
   if (file.isEmpty()) return;
   attempt(tr("A second reader's outlines"), [&] { session_.loadSecondReader(file); });
   if (!session_.secondReader().polygons.empty()) session_.compareReaders();
+}
+
+void MainWindow::exportResults() {
+  const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder for pictures and report"));
+  if (!folder.isEmpty()) compare_->exportTo(folder);
 }
 
 void MainWindow::remember(const QString& path) {
@@ -101,10 +121,15 @@ void MainWindow::offerRecovery() {
   if (found.empty()) return;
   const session::Journalled newest = found.front();
   auto* row = qobject_cast<QHBoxLayout*>(recovery_->layout());
-  auto* text =
-      new QLabel(tr("Glisson did not end in order. %1 outlines can be brought back%2.")
-                     .arg(newest.outlines.polygons.size())
-                     .arg(newest.inWork.points_lps_mm.cols() > 0 ? tr(", and the one being drawn") : QString()));
+  const QString lost = newest.inWork.points_lps_mm.cols() > 0 ? tr(", and the one being drawn") : QString();
+  auto* text = new QLabel(
+      newest.settings
+          ? tr("Glisson did not end in order. %1 outlines can be brought back%2, with the parameters as they were.")
+                .arg(newest.outlines.polygons.size())
+                .arg(lost)
+          : tr("Glisson did not end in order. %1 outlines can be brought back%2.")
+                .arg(newest.outlines.polygons.size())
+                .arg(lost));
   auto* recover = button("recoverButton", tr("Recover"), {}, tr("Opens the patient and puts the outlines back"));
   recover->setProperty("primary", true);
   auto* later = button("recoverLaterButton", tr("Later"), {}, tr("Keeps it for the next start"));
@@ -112,12 +137,16 @@ void MainWindow::offerRecovery() {
   row->addWidget(text, 1);
   for (QPushButton* b : {recover, later, discard}) row->addWidget(b);
   connect(recover, &QPushButton::clicked, this, [this, newest] {
+    if (!mayDiscard()) return;
     recovery_->hide();
     showStep(Step::Load);
     session_.recover(newest);
   });
   connect(later, &QPushButton::clicked, recovery_, &QWidget::hide);
   connect(discard, &QPushButton::clicked, this, [this, newest] {
+    if (!confirmed("discardBox", tr("Discard"), tr("What Glisson could bring back is deleted for good."),
+                   tr("%1 outlines and the parameters are lost.").arg(newest.outlines.polygons.size()), tr("Delete")))
+      return;
     std::error_code ignored;
     std::filesystem::remove(newest.file, ignored);
     recovery_->hide();

@@ -5,7 +5,7 @@
 
 #include "panels/main_window.h"
 #include "panels/segment_page.h"
-#include "panels/theme.h"
+#include "panels/theme_choice.h"
 #include "views/slice_view.h"
 
 namespace glisson::panels {
@@ -34,6 +34,9 @@ void MainWindow::makeMenus() {
   saveAsAction_ = add(file, "saveAsAction", tr("Save case &as…"), QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S),
                       &MainWindow::saveCaseAs);
   file->addSeparator();
+  exportAction_ = add(file, "exportAction", tr("&Export pictures and report…"), QKeySequence(Qt::CTRL | Qt::Key_E),
+                      &MainWindow::exportResults);
+  file->addSeparator();
   add(file, "quitAction", tr("&Quit"), QKeySequence::Quit, &QWidget::close);
   QMenu* edit = menuBar()->addMenu(tr("&Edit"));
   undoAction_ = add(edit, "undoAction", tr("&Undo"), QKeySequence::Undo, [this] { placing() ? session_.undoPlacement() : session_.undo(); });
@@ -46,7 +49,9 @@ void MainWindow::makeMenus() {
                          [this] { session_.acceptInterpolated(); });
   edit->addSeparator();
   add(edit, "secondReaderAction", tr("Load a &second reader's outlines…"), {}, &MainWindow::loadSecondReader);
-  add(edit, "compareReadersAction", tr("&Compare both readers"), {}, [this] { session_.compareReaders(); });
+  compareReadersAction_ = add(edit, "compareReadersAction", tr("&Compare both readers"), {}, [this] { session_.compareReaders(); });
+  putAwayAction_ = add(edit, "putAwayReaderAction", tr("&Put the second reader's outlines away"), {},
+                       [this] { session_.loadSecondReader({}); });
   QMenu* work = menuBar()->addMenu(tr("&Run"));
   runAction_ =
       add(work, "runAction", tr("&Build, retract and compare"), QKeySequence(Qt::CTRL | Qt::Key_R), &MainWindow::run);
@@ -57,6 +62,7 @@ void MainWindow::makeMenus() {
     QAction* action = add(view, theme == Theme::Dark ? "darkTheme" : "lightTheme",
                           theme == Theme::Dark ? tr("&Dark theme") : tr("&Light theme"), {}, [this, theme] {
                             applyTheme(theme);
+                            rememberTheme(theme);
                             refreshIcons();
                           });
     action->setCheckable(true);

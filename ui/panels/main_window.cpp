@@ -8,6 +8,7 @@
 #include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QTimer>
@@ -38,6 +39,8 @@ QString timeText(double seconds) {
   if (seconds < 60.0) return MainWindow::tr(", %1 s left").arg(std::ceil(seconds), 0, 'f', 0);
   return MainWindow::tr(", %1 min left").arg(std::ceil(seconds / 60.0), 0, 'f', 0);
 }
+
+const QString geometryKey = QStringLiteral("geometry");
 
 }  // namespace
 
@@ -166,6 +169,8 @@ void MainWindow::connectSession() {
     remember(folder.isEmpty() ? session_.path() : folder + QStringLiteral("/case.json"));
     if (session_.images().mri && step() == Step::Load) showStep(Step::Segment);
   });
+  connect(&session_, &Session::asked, this, &MainWindow::askAboutImages);
+  connect(load_, &LoadPage::answerWanted, this, &MainWindow::askAboutImages);
   connect(&session_, &Session::runFinished, this, [this] { showStep(Step::Compare); });
 }
 
@@ -191,6 +196,10 @@ void MainWindow::updateStatus() {
   interpolateAction_->setEnabled(outlines.drawn.size() > 1 &&
                                  outlines.empty.size() + outlines.interpolated.size() > 0 && !session_.busy());
   acceptAllAction_->setEnabled(!outlines.interpolated.empty());
+  const bool second = !session_.secondReader().polygons.empty();
+  compareReadersAction_->setEnabled(second);
+  putAwayAction_->setEnabled(second);
+  exportAction_->setEnabled(session_.picture() != nullptr && !session_.busy());
   setWindowModified(session_.modified());
 }
 
@@ -230,13 +239,6 @@ void MainWindow::attempt(const QString& title, const std::function<void()>& work
   }
 }
 
-bool MainWindow::mayDiscard() {
-  if (!session_.modified()) return true;
-  return QMessageBox::question(this, tr("Outlines are not saved"),
-                               tr("The outlines of this case are not saved. Go on without saving them?"),
-                               QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Cancel) == QMessageBox::Discard;
-}
-
 void MainWindow::run() {
   if (step() == Step::Load || step() == Step::Segment) showStep(Step::Retract);
   session_.run();
@@ -260,7 +262,17 @@ void MainWindow::showKeys() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  mayDiscard() ? event->accept() : event->ignore();
+  if (!mayDiscard()) {
+    event->ignore();
+    return;
+  }
+  if (remembers_) QSettings().setValue(geometryKey, saveGeometry());
+  event->accept();
+}
+
+void MainWindow::rememberPlace() {
+  remembers_ = true;
+  restoreGeometry(QSettings().value(geometryKey).toByteArray());
 }
 
 }  // namespace glisson::panels

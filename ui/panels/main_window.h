@@ -33,16 +33,20 @@ class MainWindow : public QMainWindow {
   session::Session& session() { return session_; }
   void showStep(session::Step step);
   session::Step step() const;
+  void rememberPlace();  ///< takes the place on the screen that it had last, and keeps where it is closed
 
  public slots:
   void openFolder();
   void openSynthetic();
   void importOutlines();
-  void saveCase();  ///< where it was saved before; else asks
+  void importFrom(const QString& file);  ///< asks first where outlines would be replaced
+  void saveCase();                       ///< where it was saved before; else asks
   void saveCaseAs();
   void openCase();
   void openPath(const QString& path);  ///< a folder, DICOMDIR, ZIP or case
   void loadSecondReader();
+  void exportResults();
+  void askAboutImages();  ///< what the session wants to know about the elastogram
   void run();
   void about();
   void showKeys();
@@ -60,7 +64,12 @@ class MainWindow : public QMainWindow {
   void updateStatus();
   bool placing() const;  ///< undo and redo are those of what is laid by hand
   void showProgress(double fraction, const QString& what, double secondsLeft);
-  bool mayDiscard();
+  bool mayDiscard();  ///< asks where anything is not saved, and saves it where that is wanted
+  bool mayReplaceOutlines();
+  bool saveInto(QString folder);  ///< empty: asks for one. Whether all is saved now
+  void askForMeaning(const QString& text);
+  /// A question whose answer is one button or Cancel.
+  bool confirmed(const char* name, const QString& title, const QString& text, const QString& more, const QString& yes);
   void offerRecovery();
   void remember(const QString& path);  ///< among the recent ones
   void fillRecent();
@@ -84,7 +93,9 @@ class MainWindow : public QMainWindow {
   KeySheet* sheet_ = nullptr;
   QAction *undoAction_ = nullptr, *redoAction_ = nullptr, *runAction_ = nullptr, *saveAction_ = nullptr,
           *importAction_ = nullptr, *interpolateAction_ = nullptr, *acceptAllAction_ = nullptr,
-          *saveAsAction_ = nullptr;
+          *saveAsAction_ = nullptr, *exportAction_ = nullptr, *compareReadersAction_ = nullptr,
+          *putAwayAction_ = nullptr;
+  bool remembers_ = false;  ///< its place on the screen
 };
 
 }  // namespace glisson::panels

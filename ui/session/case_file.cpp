@@ -1,32 +1,28 @@
 #include "session/case_file.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "pipeline/case_folder.h"
 #include "roi/contour_io.h"
 #include "session/marks_json.h"
-#include "session/parameters_json.h"
+#include "session/settings_json.h"
 
 namespace glisson::session {
 
 using Json = nlohmann::json;
 
 int writeCaseRecord(const CaseRecord& record, const std::filesystem::path& folder) {
-  Json roles = Json::object();
-  for (const auto& [uid, role] : record.roles) roles[uid] = dicom::name(role);
   std::error_code error;
   const std::filesystem::path relative = std::filesystem::relative(record.source, folder, error);
-  const Json j = {
-      {"patient",
-       {{"source", record.source.string()},
-        {"source_relative", error ? std::string() : relative.string()},
-        {"series_uid", record.seriesUid},
-        {"roles", roles}}},
-      {"slices", marksToJson(record.outlines.marks)},
-      {"measure", {{"inner_roi", record.measure.innerRoi}, {"erosion_pixels", record.measure.erosion_pixels}}},
-      {"parameters", toJson(record.parameters)}};
+  Json j = {{"patient",
+             {{"source", record.source.string()},
+              {"source_relative", error ? std::string() : relative.string()},
+              {"series_uid", record.seriesUid}}},
+            {"slices", marksToJson(record.outlines.marks)},
+            {"measure", toJson(record.measure)},
+            {"parameters", toJson(record.parameters)}};
+  putChoices(record.choices, j["patient"]);
   return pipeline::writeCase(
       {j.dump(-1, ' ', false, Json::error_handler_t::replace), roi::toJson(record.outlines), record.sceneJson}, folder);
 }
@@ -42,11 +38,9 @@ CaseRecord readCaseRecord(const std::filesystem::path& file) {
     const Json j = Json::parse(text.record);
     record.outlines.marks = marksFromJson(j.at("slices"));
     record.seriesUid = j.at("patient").value("series_uid", std::string());
-    for (const auto& [uid, role] : j.at("patient").at("roles").items())
-      record.roles[uid] = dicom::roleNamed(role.get<std::string>());
+    record.choices = choicesFromJson(j.at("patient"));
     record.parameters = parametersFromJson(j.at("parameters"));
-    record.measure.innerRoi = j.at("measure").at("inner_roi").get<bool>();
-    record.measure.erosion_pixels = std::clamp(j.at("measure").at("erosion_pixels").get<int>(), 0, 50);
+    record.measure = measureFromJson(j.at("measure"));
   } catch (const nlohmann::json::exception&) {
     throw BadInput("'case.json' lacks what a case needs, or holds it in another form; it was changed by hand");
   }

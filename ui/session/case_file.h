@@ -4,27 +4,16 @@
 #include <string>
 
 #include "commands/outlines.h"
-#include "dicom/series.h"
-#include "session/parameters.h"
+#include "session/settings.h"
 
 namespace glisson::session {
 
-/// How stiffness is measured.
-struct MeasureSettings {
-  bool innerRoi = false;
-  int erosion_pixels = 3;  ///< of the elastogram, where innerRoi is on
-  bool operator==(const MeasureSettings&) const = default;
-};
-
 /// What the window keeps in a case and takes up again; how it lies on disk is pipeline/case_folder.h, which the command
 /// line reads too.
-struct CaseRecord {
+struct CaseRecord : Settings {
   std::filesystem::path source;  ///< the DICOM folder, file or archive; written relative and absolute
   std::string seriesUid;         ///< of the image drawn on
-  dicom::RoleOverrides roles;    ///< of series, set by hand
   commands::Outlines outlines;
-  Parameters parameters;
-  MeasureSettings measure;
   std::string sceneJson;  ///< text of scene.json
   int version = 0;        ///< grows by one with each saving; set by readCaseRecord
 };

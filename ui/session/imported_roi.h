@@ -4,22 +4,38 @@
 
 #include "dicom/series.h"
 #include "pipeline/sources.h"
+#include "session/session.h"
 
 namespace glisson::session {
 
-/// Whether outlines from a file may be used with the images that are open (pipeline::checkRoi). Throws BadInput where
-/// they are of another patient or day; gives what the user is to be told about them, empty where there is nothing.
-inline QString belongs(const pipeline::LoadedRoi& roi, const dicom::Series& mri) {
+/// Why outlines from a file are not of the images that are open.
+struct Belonging {
+  QString refusal;  ///< of another patient or day
+  QString doubt;    ///< of another frame of reference: to be confirmed
+  QString notes;    ///< what else is to be told
+};
+
+inline Belonging belongs(const pipeline::LoadedRoi& roi, const dicom::Series& mri) {
   pipeline::AnatomicalImage image;
   image.frameOfReferenceUid = mri.frameOfReferenceUid;
   image.patientKey = mri.patientKey;
   image.studyDate = mri.studyDate;
   image.studyUid = mri.studyUid;
-  QString text;
-  std::vector<std::string> said = pipeline::checkRoi(roi, &image, nullptr, false);
-  said.insert(said.end(), roi.warnings.begin(), roi.warnings.end());
-  for (const std::string& one : said) text += (text.isEmpty() ? "" : "; ") + QString::fromStdString(one);
-  return text;
+  Belonging b;
+  using In = pipeline::Difference::In;
+  for (const pipeline::Difference& d : pipeline::differences(roi, &image, nullptr)) {
+    if (d.in == In::Patient)
+      b.refusal = Session::tr("These outlines belong to another patient than the images that are open.");
+    else if (d.in == In::Day && b.refusal.isEmpty())
+      b.refusal = Session::tr(
+          "These outlines were drawn on images of another day than those that are open. Open these images, or choose "
+          "outlines that were drawn on the open ones.");
+    else if (d.in == In::Frame)
+      b.doubt = Session::tr(
+          "These outlines have another frame of reference than the MRI: they may lie elsewhere in the patient.");
+  }
+  for (const std::string& one : roi.warnings) b.notes += (b.notes.isEmpty() ? "" : "; ") + QString::fromStdString(one);
+  return b;
 }
 
 }  // namespace glisson::session

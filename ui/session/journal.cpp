@@ -17,6 +17,7 @@
 #include "base/sha256.h"
 #include "roi/contour_io.h"
 #include "session/marks_json.h"
+#include "session/settings_json.h"
 
 namespace glisson::session {
 
@@ -30,6 +31,16 @@ constexpr auto synchroniseEvery = std::chrono::milliseconds(800);
 bool same(const roi::Polygon& a, const roi::Polygon& b) {
   return a.state == b.state && a.exclude == b.exclude && a.sopInstanceUid == b.sopInstanceUid &&
          a.points_lps_mm.cols() == b.points_lps_mm.cols() && a.points_lps_mm == b.points_lps_mm;
+}
+
+Json settingsToJson(const Settings& settings) {
+  Json patient;
+  putChoices(settings.choices, patient);
+  return {{"patient", patient}, {"parameters", toJson(settings.parameters)}, {"measure", toJson(settings.measure)}};
+}
+
+Settings settingsFromJson(const Json& j) {
+  return {choicesFromJson(j.at("patient")), parametersFromJson(j.at("parameters")), measureFromJson(j.at("measure"))};
 }
 
 /// A record: what has changed since the one before. Polygons are written as a contour file, bits and all.
@@ -47,15 +58,16 @@ std::string recordOf(const Journalled& before, const Journalled& now, bool whole
   changed.seriesUid = now.outlines.seriesUid;
   roi::ContourStack drawing;
   if (now.inWork.points_lps_mm.cols() > 0) drawing.polygons.push_back(now.inWork);
-  const Json record = {{"source", now.source},
-                       {"case", now.caseFile},
-                       {"series", now.seriesUid},
-                       {"modified", now.modified},
-                       {"polygons", now.outlines.polygons.size()},
-                       {"indices", indices},
-                       {"contours", roi::toJson(changed)},
-                       {"drawing", drawing.polygons.empty() ? std::string() : roi::toJson(drawing)},
-                       {"marks", marksToJson(now.outlines.marks)}};
+  Json record = {{"source", now.source},
+                 {"case", now.caseFile},
+                 {"series", now.seriesUid},
+                 {"modified", now.modified},
+                 {"polygons", now.outlines.polygons.size()},
+                 {"indices", indices},
+                 {"contours", roi::toJson(changed)},
+                 {"drawing", drawing.polygons.empty() ? std::string() : roi::toJson(drawing)},
+                 {"marks", marksToJson(now.outlines.marks)}};
+  if (now.settings && (whole || now.settings != before.settings)) record["settings"] = settingsToJson(*now.settings);
   return record.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -76,6 +88,7 @@ void applyRecord(Journalled& state, const std::string& payload) {
   next.caseFile = record.at("case").get<std::string>();
   next.seriesUid = record.at("series").get<std::string>();
   next.modified = record.at("modified").get<bool>();
+  if (record.contains("settings")) next.settings = settingsFromJson(record["settings"]);
   next.inWork = {};
   const auto drawing = record.at("drawing").get<std::string>();
   if (!drawing.empty()) next.inWork = roi::contoursFromJson(drawing, "the journal").polygons.at(0);
@@ -147,13 +160,15 @@ void Journal::begin(const std::string& source, const std::string& caseFile, cons
   state_.seriesUid = seriesUid;
 }
 
-void Journal::write(const commands::Outlines& outlines, const roi::Polygon& inWork, bool modified) {
+void Journal::write(const commands::Outlines& outlines, const roi::Polygon& inWork, const Settings& settings,
+                    bool modified) {
   Journalled now;
   now.source = state_.source;
   now.caseFile = state_.caseFile;
   now.seriesUid = state_.seriesUid;
   now.outlines = outlines;
   now.inWork = inWork;
+  now.settings = settings;
   now.modified = modified || inWork.points_lps_mm.cols() > 0;
   if (bytes_ > compactAbove_bytes) {
     // Everything anew beside, then in its place: at no moment is there less on disk than was promised.

@@ -11,24 +11,27 @@
 #include <vector>
 
 #include "commands/outlines.h"
+#include "session/settings.h"
 
 namespace glisson::session {
 
 /// What a journal holds, or held up to the moment of a crash.
 struct Journalled {
-  std::string source;           ///< what was open: a folder, file or case
-  std::string caseFile;         ///< the case it belongs to; empty where it was never saved
-  std::string seriesUid;        ///< of the image drawn on
-  commands::Outlines outlines;  ///< drafts included
-  roi::Polygon inWork;          ///< the outline being drawn; no points where there was none
-  std::uint64_t gestures = 0;   ///< records since it began
-  bool modified = false;        ///< whether there is anything that no case file holds
-  std::filesystem::path file;   ///< the journal itself
+  std::string source;                ///< what was open: a folder, file or case
+  std::string caseFile;              ///< the case it belongs to; empty where it was never saved
+  std::string seriesUid;             ///< of the image drawn on
+  commands::Outlines outlines;       ///< drafts included
+  roi::Polygon inWork;               ///< the outline being drawn; no points where there was none
+  std::uint64_t gestures = 0;        ///< records since it began
+  std::optional<Settings> settings;  ///< roles, parameters, bar, hoist and holds; empty where it holds none
+  bool modified = false;             ///< whether there is anything that no case file holds
+  std::filesystem::path file;        ///< the journal itself
 };
 
-/// Everything the reader does, on disk at once: one record per gesture, appended. What is written survives the program
-/// (at once) and the machine (synchronised by a thread of its own within a second). A record holds what has changed,
-/// with its SHA-256; a torn or damaged tail costs the records from there on and nothing before.
+/// Everything the reader does, on disk at once: one record per gesture and per change of a parameter, appended. What is
+/// written survives the program (at once) and the machine (synchronised by a thread of its own within a second). A
+/// record holds what has changed, with its SHA-256; a torn or damaged tail costs the records from there on and nothing
+/// before.
 class Journal {
  public:
   /// Starts a journal of its own in the folder, locked while it lives. Throws BadInput where that cannot be written.
@@ -39,9 +42,9 @@ class Journal {
 
   /// What the records that follow belong to; the first of them takes the place of all that came before.
   void begin(const std::string& source, const std::string& caseFile, const std::string& seriesUid);
-  /// The state after a gesture. Nothing is written where nothing has changed. Throws BadInput (full disk): the state
+  /// The state after a gesture or another parameter. Throws BadInput (full disk): the state
   /// is kept and written with the next record.
-  void write(const commands::Outlines& outlines, const roi::Polygon& inWork, bool modified);
+  void write(const commands::Outlines& outlines, const roi::Polygon& inWork, const Settings& settings, bool modified);
   const std::filesystem::path& file() const { return file_; }
   std::uint64_t bytesWritten() const { return bytes_; }
 

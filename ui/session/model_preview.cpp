@@ -89,7 +89,6 @@ namespace {
 /// The scene with its images and outlines where they can be read.
 pipeline::Scene readable(const CaseFiles& files, const std::filesystem::path& folder) {
   pipeline::Scene scene = files.scene;
-  scene.geometry.roles = files.images.roles;
   scene.geometry.mri = files.images.mriSource;
   if (scene.geometry.mri.empty()) {
     scene.geometry.mri = folder / "mri.nrrd";

@@ -12,6 +12,7 @@
 #include "pipeline/sources.h"
 #include "session/act_command.h"
 #include "session/measured_contours.h"
+#include "session/model_preview.h"
 
 namespace glisson::session {
 
@@ -19,9 +20,15 @@ namespace {
 
 constexpr int measureEvery_ms = 16;
 constexpr int autosaveEvery_ms = 30000;
+constexpr int journalAfter_ms = 200;
 
 QString plural(std::size_t n, const QString& one, const QString& many) {
   return n == 1 ? one : many.arg(static_cast<qulonglong>(n));
+}
+
+/// A folder named after the program alone: the name of an organization would come twice.
+QString placeOf(QStandardPaths::StandardLocation location) {
+  return QStandardPaths::writableLocation(location) + QLatin1Char('/') + QCoreApplication::applicationName();
 }
 
 /// In the reader's language.
@@ -42,24 +49,43 @@ Session::Session(QObject* parent) : QObject(parent), tool_(contours_) {
   measureTimer_.setInterval(measureEvery_ms);
   connect(&measureTimer_, &QTimer::timeout, this, &Session::measure);
   connect(&worker_, &Worker::progressed, this, &Session::progressed);
-  workFolder_ = QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/current-case");
-  journalFolder_ = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) + QStringLiteral("/journals");
+  journalTimer_.setSingleShot(true);
+  journalTimer_.setInterval(journalAfter_ms);
+  connect(&journalTimer_, &QTimer::timeout, this, &Session::journal);
+  journalFolder_ = placeOf(QStandardPaths::GenericDataLocation) + QStringLiteral("/journals");
   autosave_.setInterval(autosaveEvery_ms);
   connect(&autosave_, &QTimer::timeout, this, [this] {
     if (lock_) lock_->touch();
-    if (modified_ && !caseFolder_.isEmpty()) saveInBackground();
+    if (modified() && !caseFolder_.isEmpty()) saveInBackground();
   });
   autosave_.start();
 }
 
-Session::~Session() = default;
+Session::~Session() {
+  delete preview_;  // its worker writes into the work folder, which goes with the members
+}
+
+QString Session::cacheFolder() {
+  return placeOf(QStandardPaths::GenericCacheLocation);
+}
+
+const QString& Session::workFolder() const {
+  if (!workFolder_.isEmpty()) return workFolder_;
+  try {
+    ownFolder_ = std::make_unique<WorkFolder>(cacheFolder().toStdString());
+    workFolder_ = QString::fromStdString(ownFolder_->path().string());
+  } catch (const BadInput&) {
+    workFolder_ = cacheFolder() + QStringLiteral("/current-case");  // what runs there says why it cannot be written
+  }
+  return workFolder_;
+}
 
 void Session::setWorkFolder(const QString& folder) {
   workFolder_ = folder;
 }
 
 QString Session::runFolder() const {
-  return workFolder_ + QStringLiteral("/results");
+  return workFolder() + QStringLiteral("/results");
 }
 
 std::size_t Session::acceptedCount() const {
@@ -91,7 +117,7 @@ void Session::toolMoved() {
 
 void Session::contoursTouched() {
   ++revision_;
-  modified_ = true;
+  unsaved_.outlines = true;
   journal();
   failure_[static_cast<std::size_t>(Step::Segment)].clear();
   if (!measureTimer_.isActive()) measureTimer_.start();
@@ -149,9 +175,14 @@ void Session::setParameters(const Parameters& parameters) {
   if (parameters == parameters_) return;
   parameters_ = parameters;
   ++revision_;
-  modified_ = true;
+  settingsTouched();
   emit parametersChanged();
   emit statusChanged();
+}
+
+void Session::settingsTouched() {
+  unsaved_.settings = true;
+  if (!journalTimer_.isActive()) journalTimer_.start();
 }
 
 bool Session::resultIsStale() const {

@@ -24,12 +24,23 @@
 #include "session/journal.h"
 #include "session/parameters.h"
 #include "session/step.h"
+#include "session/work_folder.h"
 #include "session/worker.h"
 #include "tools/polygon_tool.h"
 
 namespace glisson::session {
 
 class ModelPreview;
+
+/// What stands between the MRI and its elastogram.
+struct Question {
+  enum class Kind {
+    None,      ///< nothing to be answered: it cannot be used
+    Together,  ///< of another patient, day or frame of reference: Session::useTogether
+    Meaning    ///< without quantity and unit: Session::setMeaning
+  } kind;
+  QString text;
+};
 
 /// The volumes that are shown and measured, with the series they came from (indices into the scan).
 struct OpenImages {
@@ -38,10 +49,18 @@ struct OpenImages {
   std::shared_ptr<const image::ScalarVolume> magnitude;          ///< null where there is none beside the MRI
   std::vector<std::shared_ptr<const image::ScalarVolume>> wave;  ///< time steps, in order, on one grid
   int mriSeries = -1, stiffnessSeries = -1, confidenceSeries = -1;
-  dicom::RoleOverrides roles;  ///< set by hand; then both sources are the folder that was opened
+  Choices choices;  ///< with roles set by hand both sources are the folder that was opened
   /// Folders in which the command line finds these very series by its own rule for roles; empty where there is none.
   std::filesystem::path mriSource, mreSource;
-  QString note;  ///< what could not be read, and why
+  QString note;                      ///< what could not be read, and why
+  std::optional<Question> question;  ///< why the elastogram is left out; empty where it is not
+};
+
+/// What no case file holds yet.
+struct Unsaved {
+  bool outlines = false;  ///< with marks and names
+  bool settings = false;  ///< roles, answers, parameters, bar, hoist and holds
+  bool any() const { return outlines || settings; }
 };
 
 /// Stiffness under the contours, outline in work included.
@@ -62,9 +81,10 @@ struct CaseFiles {
 int saveFiles(CaseRecord record, const CaseFiles& files, const std::filesystem::path& folder);
 
 /// Chooses the series by their roles and reads them. guessed: the scan before any role was corrected by hand. root: the
-/// folder that was opened. A missing elastogram is told in note; a missing MRI is a BadInput.
+/// folder that was opened. A missing elastogram is told in note, one that may not be used in question; a missing MRI is
+/// a BadInput.
 OpenImages readImages(const dicom::ScanResult& scan, const dicom::ScanResult& guessed,
-                      const std::filesystem::path& root, const dicom::RoleOverrides& roles, const Progress& progress);
+                      const std::filesystem::path& root, const Choices& choices, const Progress& progress);
 
 /// The one observable model of what is open. Owned and called by one thread; all work over a few milliseconds is done
 /// by workers, whose results arrive as signals.
@@ -83,6 +103,10 @@ class Session : public QObject {
   const OpenImages& images() const { return images_; }
   /// Corrects what a series is for; the images are read again, outlines stay. index: of scan().series.
   void setRole(int index, dicom::SeriesRole role);
+  /// Answers to images().question; kept in the case, and the command line takes them from there. no: the elastogram
+  /// stays left out. setMeaning throws BadInput for a unit that is none.
+  void useTogether(bool yes);
+  void setMeaning(StiffnessQuantity quantity, const QString& unit);
 
   // Segment
   const commands::Outlines& contours() const { return contours_; }
@@ -95,8 +119,11 @@ class Session : public QObject {
   bool canRedo() const;
   QString undoText() const;
   QString redoText() const;
-  /// Reads an RT Structure Set, contour file or mask as contours, one undo step. Throws BadInput.
-  void importContours(const QString& file);
+  /// Reads an RT Structure Set, contour file or mask as contours in place of those that are there, one undo step.
+  /// confirm: asked where they have another frame of reference; told by message where nobody can be asked. Throws
+  /// BadInput, also where they belong to another patient or day.
+  void importContours(const QString& file, const std::function<bool(const QString&)>& confirm = {});
+  void park();                                         ///< what is being drawn becomes a draft of its slice
   void setShownPlane(const tools::SlicePlane& plane);  ///< of the MRI: where live statistics look
   const LiveStatistics& statistics() const { return statistics_; }
   std::size_t acceptedCount() const;
@@ -139,7 +166,7 @@ class Session : public QObject {
   bool canRedoPlacement() const { return placingsDone_ < placings_.size(); }
   QString undoPlacementText() const { return canUndoPlacement() ? placings_[placingsDone_ - 1].what : QString(); }
   QString redoPlacementText() const { return canRedoPlacement() ? placings_[placingsDone_].what : QString(); }
-  ModelPreview& preview();  ///< the model as it would be run now
+  ModelPreview& preview();                              ///< the model as it would be run now
   std::uint64_t revision() const { return revision_; }  ///< grows with everything that a run depends on
   /// The case by value, as it would be written into the folder now.
   CaseFiles caseFiles(const std::filesystem::path& folder) const;
@@ -152,6 +179,8 @@ class Session : public QObject {
   std::shared_ptr<const render::RetractionScene> picture() const { return picture_; }
   bool resultIsStale() const;
   QString runFolder() const;
+  /// Pictures, report and record of the last run (export_results.h) into the folder, by a worker; ends with exported.
+  void exportInto(const QString& folder, render::Palette palette);
 
   // Case
   /// Writes case.json, contours.json and scene.json so that `glisson-cli run case.json` gives the same numbers.
@@ -164,13 +193,16 @@ class Session : public QObject {
   const QString& journalFolder() const { return journalFolder_; }
   /// Opens what a journal belongs to, and puts its outlines back; the journal goes once that is done.
   void recover(const Journalled& journalled);
-  void setWorkFolder(const QString& folder);  ///< where runs write; default: a folder of the cache
+  void setWorkFolder(const QString& folder);  ///< where runs write; default: a WorkFolder of the cache
+  static QString cacheFolder();               ///< of all windows
 
   StepStatus status(Step step) const;
-  bool modified() const { return modified_; }
+  bool modified() const { return unsaved_.any(); }
+  const Unsaved& unsaved() const { return unsaved_; }
 
  signals:
   void loaded();  ///< scan and images are new
+  void asked();   ///< images().question has not been answered yet
   void contoursChanged();
   void toolChanged();                              ///< what the tool shows changed
   void pointWanted(const Eigen::Vector3d& p_lps);  ///< show the slice of this point
@@ -183,11 +215,12 @@ class Session : public QObject {
   void runFinished();
   void message(const QString& text);
   void readersCompared(const QString& text);
+  void exported(int files, const QString& reason);  ///< reason: empty where it went well or was cancelled
   void saved(int version);
   void saveFailed(const QString& reason);
 
  private:
-  enum class Work { None, Load, Run, Interpolate, Readers, Propose };
+  enum class Work { None, Load, Run, Interpolate, Readers, Propose, Export };
   /// What is to be opened, found out by the worker.
   struct Wanted {
     std::filesystem::path path;
@@ -200,7 +233,14 @@ class Session : public QObject {
   void startLoad(std::function<Wanted(const Progress&)> prepare, const QString& what);
   static Wanted wantedCase(const std::filesystem::path& path);
   void take(Opened& opened);
-  void readAgain(const QString& what);
+  void drawnOn();
+  void tellImages();
+  void lockAgain();
+  bool stillAtWork();
+  void readAgain(const Choices& choices);
+  Settings settings() const { return {images_.choices, parameters_, measure_}; }
+  void settingsTouched();
+  const QString& workFolder() const;
   CaseRecord caseRecord(const std::filesystem::path& folder) const;
   void journal();
   void beginJournal();
@@ -210,6 +250,7 @@ class Session : public QObject {
   void measure();
   void contoursTouched();
   void replaceContours(roi::ContourStack after, const char* text);
+  mutable std::unique_ptr<WorkFolder> ownFolder_;  ///< goes after the workers
   Worker worker_;
   Worker measurer_;  ///< of the live readout; only the latest outlines count
   bool measureAgain_ = false;
@@ -242,17 +283,20 @@ class Session : public QObject {
   std::vector<Placing> placings_;
   std::size_t placingsDone_ = 0;
   ModelPreview* preview_ = nullptr;  ///< a child; made when first asked for
-  QString workFolder_, caseFolder_, journalFolder_;
+  mutable QString workFolder_;       ///< empty until it is needed
+  QString caseFolder_, journalFolder_;
   std::shared_ptr<CaseLock> lock_;
   std::unique_ptr<Journal> journal_;
   Eigen::Index journalledVertices_ = 0;  ///< of the outline in work
   bool journalFailed_ = false;           ///< told once
+  QTimer journalTimer_;                  ///< of parameters, which come in quick succession
+  std::filesystem::path recovered_;      ///< journal that goes once the new one holds what it held
   Worker saver_;
   QTimer autosave_;
   std::shared_ptr<const pipeline::RunResult> result_;
   std::shared_ptr<const render::RetractionScene> picture_;
   std::uint64_t revision_ = 0, resultRevision_ = 0;  ///< of everything a run depends on
-  bool modified_ = false;
+  Unsaved unsaved_;
   std::array<QString, 5> failure_;  ///< per step, empty where none
 };
 

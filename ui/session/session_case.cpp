@@ -1,4 +1,7 @@
 // The case on disk: contours.json, scene.json, and where the images are.
+#include <QCoreApplication>
+#include <QEventLoop>
+
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "dicom/rtstruct.h"
@@ -21,6 +24,11 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
       parameters_.useMre && images_.stiffness ? pipeline::MaterialSpec::Kind::Mre : pipeline::MaterialSpec::Kind::Atlas;
   s.setup.poisson = parameters_.poisson;
   s.setup.density = Density::fromKgPerM3(parameters_.density_kg_m3);
+  const Choices& choices = images_.choices;
+  s.geometry.roles = choices.roles;
+  s.geometry.overrideChecks = choices.together.value_or(false) || choices.otherFrame;
+  s.geometry.mreQuantity = choices.quantity;
+  s.geometry.mreUnit = choices.unit;
   s.geometry.rigidRegistration = parameters_.registerRigidly && s.material.kind == pipeline::MaterialSpec::Kind::Mre;
   s.setup.model = modelOf(parameters_.method);
   s.setup.model.meshfree.frames = parameters_.frames;
@@ -61,17 +69,10 @@ CaseFiles Session::caseFiles(const std::filesystem::path& folder) const {
 
 namespace {
 
-/// Roles that were set by hand, where the scene can say them.
-template <typename Geometry>
-void giveRoles(Geometry& geometry, const dicom::RoleOverrides& roles) {
-  if constexpr (requires { geometry.roles = roles; }) geometry.roles = roles;
-}
-
 /// The scene with the places of its images, which are written where no folder names them. Also the outlines as they are
 /// measured, where these are others.
 pipeline::Scene placed(const CaseFiles& files, const std::filesystem::path& folder) {
   pipeline::Scene s = files.scene;
-  giveRoles(s.geometry, files.images.roles);
   if (!files.images.mri) throw BadInput("there is nothing to save: open images first");
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
@@ -106,10 +107,8 @@ CaseRecord Session::caseRecord(const std::filesystem::path& folder) const {
   CaseRecord record;
   record.source = path_.toStdString();
   record.seriesUid = contours_.seriesUid;
-  record.roles = images_.roles;
+  static_cast<Settings&>(record) = settings();
   record.outlines = contours_;
-  record.parameters = parameters_;
-  record.measure = measure_;
   record.sceneJson = pipeline::toJson(scene(folder));  // without images yet; see saveFiles
   return record;
 }
@@ -120,6 +119,9 @@ int saveFiles(CaseRecord record, const CaseFiles& files, const std::filesystem::
 }
 
 void Session::saveCase(const QString& folder) {
+  // One writing at a time: the saving by itself may be under way.
+  while (saver_.busy())
+    QCoreApplication::processEvents(QEventLoop::ExcludeUserInputEvents | QEventLoop::WaitForMoreEvents);
   const std::filesystem::path target = folder.toStdString();
   std::error_code ignored;
   std::filesystem::create_directories(target, ignored);
@@ -130,7 +132,7 @@ void Session::saveCase(const QString& folder) {
   }
   const int version = saveFiles(caseRecord(target), caseFiles(target), target);
   caseFolder_ = folder;
-  modified_ = false;
+  unsaved_ = {};
   beginJournal();
   emit saved(version);
   emit statusChanged();
@@ -142,13 +144,13 @@ void Session::saveInBackground() {
   auto version = std::make_shared<int>(0);
   saver_.start([version, target, record = caseRecord(target),
                 files = caseFiles(target)](const Progress&) { *version = saveFiles(record, files, target); },
-               [this, version, revision = revision_](std::exception_ptr failure) {
+               [this, version, revision = revision_, written = settings()](std::exception_ptr failure) {
                  if (failure) {
                    emit saveFailed(reasonOf(failure));
                    return;
                  }
-                 if (revision == revision_) {
-                   modified_ = false;
+                 if (revision == revision_ && written == settings()) {
+                   unsaved_ = {};
                    beginJournal();
                  }
                  emit saved(*version);
@@ -170,6 +172,9 @@ void Session::beginJournal() {
   }
   journalFailed_ = false;
   journal();
+  std::error_code ignored;
+  if (!recovered_.empty() && !journalFailed_) std::filesystem::remove(recovered_, ignored);
+  recovered_.clear();
 }
 
 void Session::journal() {
@@ -180,7 +185,7 @@ void Session::journal() {
   if (plane_) inWork.sopInstanceUid = plane_->sopInstanceUid;
   journalledVertices_ = inWork.points_lps_mm.cols();
   try {
-    journal_->write(contours_, inWork, modified_);
+    journal_->write(contours_, inWork, settings(), modified());
     journalFailed_ = false;
   } catch (const Error& e) {
     // Told once; what is not written now goes out with the next gesture.
@@ -188,14 +193,25 @@ void Session::journal() {
   }
 }
 
-void Session::importContours(const QString& file) {
+void Session::park() {
+  if (tool_.state() == tools::ToolState::Drawing && plane_) apply(tool_.leaveSlice(*plane_));
+}
+
+void Session::importContours(const QString& file, const std::function<bool(const QString&)>& confirm) {
   if (!images_.mri) throw BadInput("open images first; outlines belong to an image series");
   const pipeline::LoadedRoi roi = pipeline::loadRoi(file.toStdString(), {}, 0);
-  const QString said = belongs(roi, scan_.series[static_cast<std::size_t>(images_.mriSeries)]);
+  const Belonging where = belongs(roi, scan_.series[static_cast<std::size_t>(images_.mriSeries)]);
+  if (!where.refusal.isEmpty()) throw BadInput(where.refusal.toStdString());
+  if (!where.doubt.isEmpty() && confirm) {
+    if (!confirm(where.doubt)) return;
+    images_.choices.otherFrame = true;
+    settingsTouched();
+  }
   roi::ContourStack imported = roi.contours ? *roi.contours : roi::contoursOf(*roi.mask);
   imported.seriesUid = contours_.seriesUid;
-  apply(tool_.state() == tools::ToolState::Drawing && plane_ ? tool_.leaveSlice(*plane_) : tools::Acts{});
+  park();
   replaceContours(std::move(imported), "import outlines");
+  const QString said = QStringList{confirm ? QString() : where.doubt, where.notes}.join(QLatin1Char(' ')).trimmed();
   if (!said.isEmpty()) emit message(said);
 }
 

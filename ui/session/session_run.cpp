@@ -1,21 +1,19 @@
 // Running: the case is saved into the work folder, then run from there by what the command line uses for a case too.
 #include "base/error.h"
+#include "session/export_results.h"
 #include "session/session.h"
 
 namespace glisson::session {
 
 void Session::run() {
-  if (worker_.busy()) {
-    emit message(tr("Still at work; cancel it first."));
-    return;
-  }
+  if (stillAtWork()) return;
   if (acceptedCount() == 0) {
     emit message(tr("Outline the liver and accept the outline (Enter) first."));
     return;
   }
   failure_[static_cast<std::size_t>(Step::Retract)].clear();
   failure_[static_cast<std::size_t>(Step::Compare)].clear();
-  const std::filesystem::path folder = workFolder_.toStdString();
+  const std::filesystem::path folder = workFolder().toStdString();
   work_ = Work::Run;
   auto result = std::make_shared<pipeline::RunResult>();
   const std::uint64_t revision = revision_;
@@ -39,6 +37,23 @@ void Session::run() {
         if (!failure) emit runFinished();
       });
   emit workStarted(tr("Running"));
+  emit statusChanged();
+}
+
+void Session::exportInto(const QString& folder, render::Palette palette) {
+  if (!result_ || !picture_ || stillAtWork()) return;
+  work_ = Work::Export;
+  auto files = std::make_shared<int>(0);
+  worker_.start(
+      [files, result = result_, picture = picture_, palette,
+       target = std::filesystem::path(folder.toStdString())](const Progress& progress) {
+        *files = static_cast<int>(exportResults(*result, *picture, palette, target, progress).size());
+      },
+      [this, files](std::exception_ptr failure) {
+        ended(Work::Export, failure);
+        emit exported(*files, reasonOf(failure));
+      });
+  emit workStarted(tr("Exporting"));
   emit statusChanged();
 }
 

@@ -140,7 +140,7 @@ void Session::setMeasureSettings(const MeasureSettings& settings) {
   if (settings == measure_) return;
   measure_ = settings;
   measure_.erosion_pixels = std::clamp(settings.erosion_pixels, 0, 50);
-  modified_ = true;
+  settingsTouched();
   if (!measureTimer_.isActive()) measureTimer_.start();
   emit toolChanged();
   emit statusChanged();
@@ -158,7 +158,9 @@ void Session::loadSecondReader(const QString& file) {
     } else {
       roi = pipeline::loadRoi(path, {}, 0);
     }
-    const QString said = belongs(roi, scan_.series[static_cast<std::size_t>(images_.mriSeries)]);
+    const Belonging where = belongs(roi, scan_.series[static_cast<std::size_t>(images_.mriSeries)]);
+    if (!where.refusal.isEmpty()) throw BadInput(where.refusal.toStdString());
+    const QString said = QStringList{where.doubt, where.notes}.join(QLatin1Char(' ')).trimmed();
     if (!said.isEmpty()) emit message(said);
     if (!roi.contours) throw BadInput("a second reader's outlines are polygons: a contour file or RT Structure Set");
     second_ = std::move(*roi.contours);

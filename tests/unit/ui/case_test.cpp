@@ -12,6 +12,7 @@
 #include "session/case_file.h"
 #include "session/case_lock.h"
 #include "session/measured_contours.h"
+#include "session/work_folder.h"
 #include "support/support.h"
 #include "tool_bench.h"
 
@@ -22,7 +23,10 @@ CaseRecord record(double x) {
   CaseRecord r;
   r.source = "/some/where/patient";
   r.seriesUid = "1.2.840";
-  r.roles["1.2.3"] = dicom::SeriesRole::Stiffness;
+  r.choices.roles["1.2.3"] = dicom::SeriesRole::Stiffness;
+  r.choices.together = true;
+  r.choices.quantity = StiffnessQuantity::Youngs;
+  r.choices.unit = "0.01kPa";
   roi::Polygon p;
   p.points_lps_mm.resize(3, 3);
   p.points_lps_mm << x, x + 1.0 / 3.0, x, 0.1, 0.2, 7.7, 5.0, 5.0, 5.0;
@@ -51,7 +55,7 @@ TEST(CaseFile, ComesBackToTheBit) {
   EXPECT_EQ(read.outlines.marks, wrote.outlines.marks);
   EXPECT_EQ(read.parameters, wrote.parameters);
   EXPECT_EQ(read.measure, wrote.measure);
-  EXPECT_EQ(read.roles, wrote.roles);
+  EXPECT_EQ(read.choices, wrote.choices);
   EXPECT_EQ(read.seriesUid, wrote.seriesUid);
   EXPECT_EQ(read.sceneJson, wrote.sceneJson);
 }
@@ -118,6 +122,33 @@ TEST(CaseFile, KilledWhileSavingLeavesTheOldCaseOrTheNew) {
 TEST(CaseFile, AFolderThatCannotBeWrittenKeepsWhatIsThere) {
   EXPECT_THROW(writeCaseRecord(record(1.0), "/proc/no-such-place"), BadInput);
   EXPECT_THROW(writeAtomically("/dev/full/case.json", "text"), BadInput);
+}
+
+TEST(WorkFolder, TwoWindowsHaveTwoAndADeadOnesIsCleared) {
+  const test::TemporaryFolder folder;
+  {
+    const WorkFolder one(folder.path()), other(folder.path());
+    EXPECT_NE(one.path(), other.path());
+    std::ofstream(one.path() / "file") << "1";
+    EXPECT_EQ(WorkFolder::removeAbandoned(folder.path()), 0) << "both are in use";
+    EXPECT_TRUE(std::filesystem::exists(one.path() / "file"));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "an orderly end leaves nothing";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    auto* dead = new WorkFolder(folder.path());
+    std::ofstream(dead->path() / "file") << "1";
+    ::kill(::getpid(), SIGKILL);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_FALSE(std::filesystem::is_empty(folder.path()));
+  std::filesystem::create_directory(folder / "synthetic-patient-1");
+  EXPECT_EQ(WorkFolder::removeAbandoned(folder.path()), 1);
+  EXPECT_TRUE(std::filesystem::exists(folder / "synthetic-patient-1")) << "nobody's work";
+  std::filesystem::remove(folder / "synthetic-patient-1");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  EXPECT_THROW(WorkFolder("/proc/no-such-place"), BadInput);
 }
 
 TEST(CaseLock, ASecondWindowIsRefusedAndADeadOneTakenOver) {

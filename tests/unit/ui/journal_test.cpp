@@ -41,7 +41,7 @@ TEST(Journal, HoldsEveryGestureToTheBitDraftsMarksAndTheOutlineInWork) {
     roi::Polygon inWork;
     inWork.state = roi::PolygonState::Draft;
     if (n % 4 == 1) inWork.points_lps_mm = Eigen::Matrix3Xd::Constant(3, 1, n / 3.0);
-    journal.write(outlines, inWork, true);
+    journal.write(outlines, inWork, {}, true);
     const auto read = Journal::read(journal.file());
     ASSERT_TRUE(read) << n;
     EXPECT_TRUE(test::same(read->outlines, outlines)) << n;
@@ -50,6 +50,32 @@ TEST(Journal, HoldsEveryGestureToTheBitDraftsMarksAndTheOutlineInWork) {
     EXPECT_EQ(read->source, "patient");
     EXPECT_EQ(read->caseFile, "case.json");
     EXPECT_EQ(read->seriesUid, "1.2.3");
+  }
+}
+
+TEST(Journal, HoldsRolesAnswersParametersAndWhatWasLaidByHand) {
+  const test::TemporaryFolder folder;
+  Journal journal(folder.path());
+  journal.begin("patient", "", "");
+  Settings settings;
+  journal.write({}, {}, settings, false);
+  EXPECT_EQ(Journal::read(journal.file())->settings, settings);
+  settings.choices.roles["1.2"] = dicom::SeriesRole::Anatomical;
+  settings.choices.together = false;
+  settings.choices.quantity = StiffnessQuantity::Youngs;
+  settings.choices.unit = "Pa";
+  settings.measure = {true, 5};
+  for (int n = 0; n < 20; ++n) {
+    settings.parameters.poisson = 0.3 + n / 200.0;
+    settings.parameters.placement.barAt_lps = Eigen::Vector3d(n / 7.0, 1.0 / 3.0, -n);
+    settings.parameters.placement.hoistDirection = Eigen::Vector3d(0.1 * n, -1.0, 0.3).normalized();
+    settings.parameters.placement.holds.push_back({Eigen::Vector3d(n, 0.1, 0.2), 3.0 + n});
+    journal.write({}, {}, settings, true);
+    // What does not change with a record stays.
+    if (n % 2 == 0) journal.write({}, triangle(1.0, n), settings, true);
+    const auto read = Journal::read(journal.file());
+    ASSERT_TRUE(read && read->settings) << n;
+    EXPECT_EQ(*read->settings, settings) << n;
   }
 }
 
@@ -64,7 +90,7 @@ TEST(Journal, ATornOrFlippedTailCostsNothingBeforeIt) {
     commands::Outlines outlines;
     for (int n = 0; n < 6; ++n) {
       outlines.polygons.push_back(triangle(n, n));
-      journal.write(outlines, {}, true);
+      journal.write(outlines, {}, {}, true);
       ends.push_back(std::filesystem::file_size(journal.file()));
       states.push_back(outlines);
     }
@@ -102,7 +128,7 @@ TEST(Journal, AnOrderlyEndLeavesNothingToRecover) {
     journal.begin("patient", "", "");
     commands::Outlines outlines;
     outlines.polygons.push_back(triangle(0, 0));
-    journal.write(outlines, {}, true);
+    journal.write(outlines, {}, {}, true);
     EXPECT_TRUE(Journal::abandoned(folder.path()).empty()) << "its program is alive";
   }
   EXPECT_TRUE(Journal::abandoned(folder.path()).empty());
@@ -122,7 +148,7 @@ TEST(Journal, KilledAtRandomMomentsLosesAtMostTheGestureInProgress) {
       for (std::uint32_t n = 1;; ++n) {
         outlines.polygons.push_back(triangle(n, n));
         if (outlines.polygons.size() > 40) outlines.polygons.erase(outlines.polygons.begin());
-        journal.write(outlines, {}, true);
+        journal.write(outlines, {}, {}, true);
         if (::write(told[1], &n, sizeof n) != sizeof n) ::_exit(1);
       }
     }
@@ -155,7 +181,7 @@ TEST(Journal, StaysSmallOverALongDay) {
   outlines.polygons.assign(2, large);
   for (int n = 0; n < 120; ++n) {
     outlines.polygons[0].points_lps_mm(0, 0) = n;
-    journal.write(outlines, {}, true);
+    journal.write(outlines, {}, {}, true);
   }
   EXPECT_LT(std::filesystem::file_size(journal.file()), 20u << 20);
   const auto read = Journal::read(journal.file());
