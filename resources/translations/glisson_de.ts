@@ -2264,7 +2264,7 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         </message>
         <message>
             <source>Exporting</source>
-            <translation>Exportiert</translation>
+            <translation>Exportieren</translation>
         </message>
         <message>
             <source>These outlines belong to another patient than the images that are open.</source>
@@ -2313,6 +2313,10 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>No confidence map was found: every voxel with a stiffness counts.</source>
             <translation>Keine Konfidenzkarte gefunden: jedes Voxel mit einer Steifigkeit zählt.</translation>
+        </message>
+        <message>
+            <source>cancelled</source>
+            <translation>abgebrochen</translation>
         </message>
     </context>
     <context>

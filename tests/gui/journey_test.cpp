@@ -77,8 +77,8 @@ class Journey : public QObject, private glisson::test::WindowBench {
       QCOMPARE(session().acceptedCount(), ++accepted);
     }
     mri()->setSlice(middle);
-    QTRY_VERIFY(session().statistics().pooled.has_value());
-    QVERIFY(session().statistics().pooled->pooled.n > 100);
+    // Measured by a worker: the numbers of the last outline come after those of the first.
+    QTRY_VERIFY(session().statistics().pooled && session().statistics().pooled->pooled.n > 100);
     QTRY_VERIFY(find<QLabel>("liveMean")->text().contains("kPa"));
     QCOMPARE(session().status(Step::Segment).state, StepState::Done);
   }
@@ -307,6 +307,21 @@ class Journey : public QObject, private glisson::test::WindowBench {
     for (const char* name : {"overlay-largest-difference.png", "difference-map.png", "overlay-3d-oblique.png",
                              "difference-boxes.png", "difference-boxes.svg", "report.html", "run.json"})
       QVERIFY2(std::filesystem::file_size(target / name) > 1000, name);
+  }
+
+  void anExportShowsHowFarItIsAndCanBeCancelled() {
+    auto* compare = window().findChild<glisson::panels::ComparePage*>();
+    QSignalSpy exported(compare, &glisson::panels::ComparePage::exported);
+    QSignalSpy progress(&session(), &Session::progressed);
+    compare->exportTo(path("cancelled"));
+    QVERIFY(find<QPushButton>("cancelButton")->isVisible() && !find<QPushButton>("exportButton")->isEnabled());
+    QVERIFY(progress.count() > 0 || progress.wait(wait_ms));
+    click("cancelButton");
+    QVERIFY(exported.count() > 0 || exported.wait(wait_ms));
+    QCOMPARE(exported.front()[0].toInt(), 0);
+    QVERIFY(!exported.front()[1].toString().isEmpty());
+    QVERIFY2(std::filesystem::is_empty(folder() / "cancelled"), "half an export would pass for a whole one");
+    QVERIFY(find<QPushButton>("exportButton")->isEnabled());
   }
 
   void theCommandLineGivesTheSameNumbers() {

@@ -157,6 +157,9 @@ QWidget* ComparePage::makeSide() {
   export_->setEnabled(false);
   side->addWidget(export_);
   connect(export_, &QPushButton::clicked, this, &ComparePage::askWhereTo);
+  connect(&session_, &session::Session::exported, this, &ComparePage::exported);
+  connect(&session_, &session::Session::statusChanged, this,
+          [this] { export_->setEnabled(session_.picture() && !session_.busy()); });
   connect(what_, &QComboBox::currentIndexChanged, this, [this](int index) {
     magnify_->setEnabled(index == 0);
     drawSlice();

@@ -61,7 +61,7 @@ class ComparePage : public QWidget {
   render::Palette palette_() const;
   session::Session& session_;
   session::Worker painter_;  ///< draws slice overlays; only the latest wish counts
-  session::Worker charter_, exporter_;
+  session::Worker charter_;
   std::vector<session::VesselPlace> places_;    ///< beyond 5 mm, as listed
   std::optional<session::VesselPlace> vessel_;  ///< chosen: where the inset of the overlay looks
   bool zoomIsBelow_ = false;                    ///< in the picture on screen

@@ -52,7 +52,7 @@ void ComparePage::showVessels() {
   places_.clear();
   const auto result = session_.result();
   const auto picture = session_.picture();
-  export_->setEnabled(result && picture && !exporter_.busy());
+  export_->setEnabled(result && picture && !session_.busy());
   if (result && picture) places_ = session::vesselsBeyond(*result, *picture);
   list_->setVisible(!places_.empty());
   QList<QTreeWidgetItem*> rows;
@@ -152,20 +152,7 @@ void ComparePage::askWhereTo() {
 }
 
 void ComparePage::exportTo(const QString& folder) {
-  const auto result = session_.result();
-  const auto picture = session_.picture();
-  if (!result || !picture || exporter_.busy()) return;
-  export_->setEnabled(false);
-  auto files = std::make_shared<int>(0);
-  exporter_.start(
-      [files, result, picture, palette = palette_(),
-       target = std::filesystem::path(folder.toStdString())](const Progress& progress) {
-        *files = static_cast<int>(session::exportResults(*result, *picture, palette, target, progress).size());
-      },
-      [this, files](std::exception_ptr failure) {
-        export_->setEnabled(session_.picture() != nullptr);
-        emit exported(*files, session::reasonOf(failure));
-      });
+  session_.exportInto(folder, palette_());
 }
 
 }  // namespace glisson::panels

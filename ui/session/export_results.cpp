@@ -66,26 +66,41 @@ std::vector<std::filesystem::path> exportResults(const pipeline::RunResult& resu
   if (!vessels.empty()) data.vessel_lps_mm = vessels.front().seen_lps;
   pipeline::PictureOptions options;
   options.palette = palette;
-  progress.report(0.0, "slices");
-  std::vector<std::filesystem::path> files = pipeline::drawSlices(data, options, folder);
-  progress.report(0.4, "3-D");
-  for (const auto& file : pipeline::draw3D(data, options, folder)) files.push_back(file);
-  progress.report(0.8, "charts and report");
-  if (result.difference && result.atlas) {
-    const render::BoxPlot plot = differenceBoxes(result, picture);
-    files.push_back(folder / "difference-boxes.png");
-    render::writePng(files.back(), render::draw(plot));
-    files.push_back(folder / "difference-boxes.svg");
-    writeAtomically(files.back(), render::svg(plot));
-  }
-  for (const auto& file : result.files)
-    if (file.stem() == "report" || file.filename() == "run.json") {
-      std::filesystem::copy_file(file, folder / file.filename(), std::filesystem::copy_options::overwrite_existing,
-                                 failed);
-      if (failed) throw BadInput("cannot copy " + file.filename().string() + " into the folder: " + failed.message());
-      files.push_back(folder / file.filename());
+  std::vector<std::filesystem::path> files;
+  const auto add = [&files](const std::vector<std::filesystem::path>& more) {
+    files.insert(files.end(), more.begin(), more.end());
+  };
+  try {
+    progress.report(0.0, "slices");
+    add(pipeline::drawSlices(data, options, folder));
+    double done = 0.4;
+    for (const char* camera : {"oblique", "anterior"}) {
+      progress.report(done, "3-D");
+      options.cameras = {pipeline::cameraFromText(camera)};
+      add(pipeline::draw3D(data, options, folder));
+      done += 0.2;
     }
-  progress.report(1.0, "done");
+    progress.report(0.8, "charts and report");
+    if (result.difference && result.atlas) {
+      const render::BoxPlot plot = differenceBoxes(result, picture);
+      files.push_back(folder / "difference-boxes.png");
+      render::writePng(files.back(), render::draw(plot));
+      files.push_back(folder / "difference-boxes.svg");
+      writeAtomically(files.back(), render::svg(plot));
+    }
+    for (const auto& file : result.files)
+      if (file.stem() == "report" || file.filename() == "run.json") {
+        std::filesystem::copy_file(file, folder / file.filename(), std::filesystem::copy_options::overwrite_existing,
+                                   failed);
+        if (failed) throw BadInput("cannot copy " + file.filename().string() + " into the folder: " + failed.message());
+        files.push_back(folder / file.filename());
+      }
+    progress.report(1.0, "done");
+  } catch (...) {
+    // Half an export would pass for a whole one.
+    for (const auto& file : files) std::filesystem::remove(file, failed);
+    throw;
+  }
   return files;
 }
 

@@ -25,7 +25,8 @@ std::vector<VesselPlace> vesselsBeyond(const pipeline::RunResult& result, const 
 render::BoxPlot differenceBoxes(const pipeline::RunResult& result, const render::RetractionScene& picture);
 
 /// Pictures in this palette (slices, difference map, 3-D, box plot as PNG and SVG), the report and the record of the
-/// run, into the folder. Needs a thread without a window's OpenGL context. Throws BadInput, RenderUnavailable.
+/// run, into the folder. Needs a thread without a window's OpenGL context. Throws BadInput, RenderUnavailable, Cancelled;
+/// then nothing of it stays.
 std::vector<std::filesystem::path> exportResults(const pipeline::RunResult& result,
                                                  const render::RetractionScene& picture, render::Palette palette,
                                                  const std::filesystem::path& folder, const Progress& progress = {});

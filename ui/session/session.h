@@ -215,7 +215,7 @@ class Session : public QObject {
   void runFinished();
   void message(const QString& text);
   void readersCompared(const QString& text);
-  void exported(int files, const QString& reason);  ///< reason: empty where it went well or was cancelled
+  void exported(int files, const QString& reason);  ///< reason: empty where it went well
   void saved(int version);
   void saveFailed(const QString& reason);
 

@@ -51,7 +51,7 @@ void Session::exportInto(const QString& folder, render::Palette palette) {
       },
       [this, files](std::exception_ptr failure) {
         ended(Work::Export, failure);
-        emit exported(*files, reasonOf(failure));
+        emit exported(*files, wasCancelled(failure) ? tr("cancelled") : reasonOf(failure));
       });
   emit workStarted(tr("Exporting"));
   emit statusChanged();
