@@ -2,13 +2,13 @@
 #include <QCommandLineParser>
 #include <QLocale>
 #include <QTimer>
-#include <QTranslator>
 #include <array>
 #include <iostream>
 #include <thread>
 #include <vector>
 
 #include "base/version.h"
+#include "panels/language.h"
 #include "panels/main_window.h"
 #include "panels/theme_choice.h"
 #include "screenshot.h"
@@ -79,10 +79,7 @@ int main(int argc, char** argv) {
     return 2;
   }
 
-  QTranslator translator;
-  const QLocale wanted = parser.isSet(language) ? QLocale(parser.value(language)) : system;
-  if (translator.load(wanted, QStringLiteral("glisson"), QStringLiteral("_"), QStringLiteral(":/translations")))
-    QApplication::installTranslator(&translator);
+  glisson::panels::speak(parser.isSet(language) ? QLocale(parser.value(language)) : system);
   glisson::panels::applyTheme(wantedTheme ? *wantedTheme : glisson::panels::preferredTheme());
   // What windows that were killed left in the cache.
   const std::jthread cleaner([folder = glisson::session::Session::cacheFolder().toStdString()] {

@@ -1987,11 +1987,11 @@ Name des Bereichs:</translation>
         </message>
         <message>
             <source>Freehand: a vertex every so many pixels of the screen</source>
-            <translation>Freihand: so viele Bildschirmpixel von Ecke zu Ecke</translation>
+            <translation>Freihand: so viele Bildschirmpixel von Punkt zu Punkt</translation>
         </message>
         <message>
             <source>Spacing of freehand vertices</source>
-            <translation>Abstand der Freihand-Ecken</translation>
+            <translation>Abstand der Freihand-Punkte</translation>
         </message>
         <message>
             <source>The stiffness scale is 0–8 or 0–20 kPa, so that a colour always means the same: %1.</source>
@@ -2713,7 +2713,7 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         </message>
         <message>
             <source>Click at the crosshair: vertex, close on the first one, select</source>
-            <translation>Klick am Fadenkreuz: Ecke, auf der ersten schließen, auswählen</translation>
+            <translation>Klick am Fadenkreuz: Punkt setzen, auf dem ersten schließen, auswählen</translation>
         </message>
         <message>
             <source>Crosshair left by 1 pixel</source>
@@ -2843,35 +2843,35 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <name>tools</name>
         <message>
             <source>Closed. Drag vertices to adjust, Enter to accept.</source>
-            <translation>Geschlossen. Ecken ziehen zum Anpassen, Enter nimmt an.</translation>
+            <translation>Geschlossen. Punkte ziehen zum Anpassen, Eingabe nimmt an.</translation>
         </message>
         <message>
             <source>The outline crosses itself. Move a vertex, or press Enter to accept it all the same.</source>
-            <translation>Die Kontur kreuzt sich selbst. Eine Ecke verschieben, oder mit Enter trotzdem annehmen.</translation>
+            <translation>Die Kontur kreuzt sich selbst. Einen Punkt verschieben, oder mit Eingabe trotzdem annehmen.</translation>
         </message>
         <message>
             <source>The outline crosses itself. Press Enter again to accept it all the same.</source>
-            <translation>Die Kontur kreuzt sich selbst. Noch einmal Enter nimmt sie trotzdem an.</translation>
+            <translation>Die Kontur kreuzt sich selbst. Nochmals Eingabe nimmt sie trotzdem an.</translation>
         </message>
         <message>
             <source>The outline crosses itself now and is a draft again. Move a vertex, or press Enter to accept it all the same.</source>
-            <translation>Die Kontur kreuzt sich jetzt selbst und ist wieder ein Entwurf. Eine Ecke verschieben, oder mit Enter trotzdem annehmen.</translation>
+            <translation>Die Kontur kreuzt sich jetzt selbst und ist wieder ein Entwurf. Einen Punkt verschieben, oder mit Eingabe trotzdem annehmen.</translation>
         </message>
         <message>
             <source>A region needs three different vertices, this outline has %1.</source>
-            <translation>Eine Region braucht drei verschiedene Ecken, diese Kontur hat %1.</translation>
+            <translation>Ein Bereich braucht drei verschiedene Punkte, diese Kontur hat %1.</translation>
         </message>
         <message>
             <source>A region needs at least %1 voxels, this outline holds %2. Draw it larger.</source>
-            <translation>Eine Region braucht mindestens %1 Voxel, diese Kontur enthält %2. Größer zeichnen.</translation>
+            <translation>Ein Bereich braucht mindestens %1 Voxel, diese Kontur enthält %2. Größer zeichnen.</translation>
         </message>
         <message>
             <source>Not changed: a region needs three different vertices, this outline would have %1.</source>
-            <translation>Nicht geändert: Eine Region braucht drei verschiedene Ecken, diese Kontur hätte %1.</translation>
+            <translation>Nicht geändert: Ein Bereich braucht drei verschiedene Punkte, diese Kontur hätte %1.</translation>
         </message>
         <message>
             <source>Not changed: a region needs at least %1 voxels, this outline would hold %2.</source>
-            <translation>Nicht geändert: Eine Region braucht mindestens %1 Voxel, diese Kontur enthielte %2.</translation>
+            <translation>Nicht geändert: Ein Bereich braucht mindestens %1 Voxel, diese Kontur enthielte %2.</translation>
         </message>
         <message>
             <source>%1</source>
@@ -2879,11 +2879,11 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         </message>
         <message>
             <source>Parked as a draft. Backspace takes it up again, Esc discards it.</source>
-            <translation>Als Entwurf geparkt. Rücktaste nimmt ihn wieder auf, Esc verwirft ihn.</translation>
+            <translation>Als Entwurf abgelegt. Rücktaste nimmt ihn wieder auf, Esc verwirft ihn.</translation>
         </message>
         <message>
             <source>Parked as a draft on slice %1. Click it there: Backspace takes it up again, Esc discards it.</source>
-            <translation>Als Entwurf auf Schicht %1 geparkt. Dort anklicken: Rücktaste nimmt ihn wieder auf, Esc verwirft ihn.</translation>
+            <translation>Als Entwurf auf Schicht %1 abgelegt. Dort anklicken: Rücktaste nimmt ihn wieder auf, Esc verwirft ihn.</translation>
         </message>
         <message>
             <source>Draft discarded; undo brings it back.</source>
@@ -2891,11 +2891,11 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         </message>
         <message>
             <source>Fewer than three vertices would be left: the whole outline is deleted.</source>
-            <translation>Es blieben weniger als drei Ecken: Die ganze Kontur wird gelöscht.</translation>
+            <translation>Es blieben weniger als drei Punkte: Die ganze Kontur wird gelöscht.</translation>
         </message>
         <message>
             <source>An outline inside a region becomes a hole.</source>
-            <translation>Eine Kontur in einer Region wird ein Loch.</translation>
+            <translation>Eine Kontur in einem Bereich wird ein Loch.</translation>
         </message>
         <message>
             <source>Once accepted, this outline replaces the interpolated ones of the slice.</source>
@@ -2915,15 +2915,15 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         </message>
         <message>
             <source>Split needs an edge (two neighbours) or two vertices apart.</source>
-            <translation>Teilen braucht eine Kante (zwei Nachbarn) oder zwei Ecken, die auseinanderliegen.</translation>
+            <translation>Teilen braucht eine Kante (zwei Nachbarn) oder zwei Punkte, die auseinanderliegen.</translation>
         </message>
         <message>
             <source>Trim needs more vertices: at least three stay.</source>
-            <translation>Stutzen braucht mehr Ecken: Mindestens drei bleiben.</translation>
+            <translation>Stutzen braucht mehr Punkte: Mindestens drei bleiben.</translation>
         </message>
         <message>
             <source>This outline is left out of the region.</source>
-            <translation>Diese Kontur wird aus der Region ausgelassen.</translation>
+            <translation>Diese Kontur wird aus dem Bereich ausgelassen.</translation>
         </message>
         <message>
             <source>This outline counts.</source>

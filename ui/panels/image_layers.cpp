@@ -46,6 +46,9 @@ ImageLayers::ImageLayers(views::SliceView* view, QWidget* parent)
   row->addWidget(play_);
   connect(play_, &QPushButton::clicked, this, &ImageLayers::togglePlay);
   clock_.setInterval(phaseEvery_ms);
+  connect(view_, &views::SliceView::windowChanged, this, [this](double, double high) {
+    if (layer_ == Layer::Wave) waveRange_ = high;
+  });
   connect(&clock_, &QTimer::timeout, this, [this] {
     if (images_->wave.empty()) return;
     phase_ = (phase_ + 1) % static_cast<int>(images_->wave.size());
@@ -54,7 +57,7 @@ ImageLayers::ImageLayers(views::SliceView* view, QWidget* parent)
 }
 
 void ImageLayers::setImages(const session::OpenImages& images) {
-  clock_.stop();
+  setPlaying(false);
   *images_ = images;
   phase_ = 0;
   waveRange_ = 1.0;
@@ -80,7 +83,7 @@ void ImageLayers::show(Layer layer) {
   buttons_[static_cast<std::size_t>(layer)]->setChecked(true);
   const bool wave = layer == Layer::Wave;
   play_->setEnabled(wave && images_->wave.size() > 1);
-  if (!wave) clock_.stop();
+  if (!wave) setPlaying(false);
   phaseText_->clear();
   const Eigen::Vector3d here = view_->hasVolume() ? view_->centre_lps() : Eigen::Vector3d::Zero();
   const bool had = view_->hasVolume();
@@ -130,8 +133,15 @@ void ImageLayers::showWave() {
 void ImageLayers::togglePlay() {
   if (images_->wave.size() < 2) return;
   if (layer_ != Layer::Wave) show(Layer::Wave);
-  clock_.isActive() ? clock_.stop() : clock_.start();
-  play_->setIcon(icon(clock_.isActive() ? QStringLiteral("pause") : QStringLiteral("play")));
+  setPlaying(!clock_.isActive());
+}
+
+void ImageLayers::setPlaying(bool on) {
+  on ? clock_.start() : clock_.stop();
+  const QString shown = on ? QStringLiteral("pause") : QStringLiteral("play");
+  if (play_->property("iconName") == shown) return;
+  play_->setProperty("iconName", shown);
+  play_->setIcon(icon(shown));
 }
 
 }  // namespace glisson::panels

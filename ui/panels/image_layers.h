@@ -36,6 +36,7 @@ class ImageLayers : public QWidget {
 
  private:
   void showWave();
+  void setPlaying(bool on);
   views::SliceView* view_;
   std::array<QPushButton*, 4> buttons_{};
   QPushButton* play_;

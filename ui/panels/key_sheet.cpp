@@ -1,5 +1,6 @@
 #include "panels/key_sheet.h"
 
+#include <QAction>
 #include <QCoreApplication>
 #include <QDialogButtonBox>
 #include <QHeaderView>
@@ -7,16 +8,36 @@
 #include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QStyledItemDelegate>
 #include <QTabWidget>
 #include <QTreeWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "panels/form.h"
 #include "panels/keys.h"
+#include "panels/step_rail.h"
 
 namespace glisson::panels {
 
 namespace {
+
+/// Rows as high as their texts need in columns as wide as they are; a tree by itself makes room for one line.
+class WholeTexts : public QStyledItemDelegate {
+ public:
+  explicit WholeTexts(QTreeWidget* tree) : QStyledItemDelegate(tree), tree_(tree) {
+    connect(tree->header(), &QHeaderView::sectionResized, this, [this] { emit sizeHintChanged({}); });
+  }
+  QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    constexpr int margin = 18, air = 12;  // what the style sheet and the style put around a text
+    const QRect room(0, 0, std::max(tree_->columnWidth(index.column()) - margin, 40), 10000);
+    const QRect text = option.fontMetrics.boundingRect(room, Qt::TextWordWrap, index.data().toString());
+    return {text.width() + margin, text.height() + air};
+  }
+
+ private:
+  QTreeWidget* tree_;
+};
 
 QTreeWidget* tree(const char* name, const QStringList& columns) {
   auto* t = new QTreeWidget;
@@ -25,6 +46,7 @@ QTreeWidget* tree(const char* name, const QStringList& columns) {
   t->setRootIsDecorated(false);
   t->setAlternatingRowColors(true);
   t->setWordWrap(true);
+  t->setItemDelegate(new WholeTexts(t));
   return t;
 }
 
@@ -50,6 +72,9 @@ KeySheet::KeySheet(Keys& keys, QWidget* parent) : QDialog(parent), keys_(keys) {
     new QTreeWidgetItem(mouse,
                         {translated(g.gesture), translated(g.idle), translated(g.drawing), translated(g.editing)});
   tabs->addTab(mouse, tr("Mouse"));
+  menus_ = tree("menuKeyTable", {tr("What"), tr("Key")});
+  menus_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  tabs->addTab(menus_, tr("Steps and menus"));
   layout->addWidget(
       labelled(tr("Double-click a key to change it. Keys work while the mouse is over an image."), "faint"));
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
@@ -72,6 +97,27 @@ void KeySheet::fill() {
     item->setData(0, Qt::UserRole, static_cast<int>(e.command));
   }
   table_->resizeColumnToContents(1);
+}
+
+// Keys of the window itself: they act wherever the mouse is, and are not changed here.
+void KeySheet::fillMenus() {
+  menus_->clear();
+  if (!parentWidget()) return;
+  const auto add = [this](const QString& what, const QKeySequence& key) {
+    new QTreeWidgetItem(menus_, {what, key.toString(QKeySequence::NativeText)});
+  };
+  for (const StepButton* step : parentWidget()->findChildren<StepButton*>())
+    add(tr("Step %1").arg(step->text()), step->shortcut());
+  for (const QAction* action : parentWidget()->findChildren<QAction*>()) {
+    const bool listed = std::any_of(tools::keyTable().begin(), tools::keyTable().end(),
+                                    [&](const auto& e) { return keys_.of(e.command).contains(action->shortcut()); });
+    if (!action->shortcut().isEmpty() && !listed) add(action->text().remove(QLatin1Char('&')), action->shortcut());
+  }
+}
+
+void KeySheet::showEvent(QShowEvent* event) {
+  fillMenus();
+  QDialog::showEvent(event);
 }
 
 void KeySheet::change(int command) {

@@ -14,11 +14,15 @@ class KeySheet : public QDialog {
  public:
   explicit KeySheet(Keys& keys, QWidget* parent = nullptr);
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   void fill();
+  void fillMenus();
   void change(int command);
   Keys& keys_;
-  QTreeWidget* table_;
+  QTreeWidget *table_, *menus_;
 };
 
 }  // namespace glisson::panels

@@ -21,6 +21,7 @@
 #include "panels/keys.h"
 #include "panels/load_page.h"
 #include "panels/model_page.h"
+#include "panels/quiet_wheel.h"
 #include "panels/retract_page.h"
 #include "panels/segment_page.h"
 #include "panels/step_rail.h"
@@ -58,6 +59,7 @@ MainWindow::MainWindow(QWidget* parent)
       progressText_(new QLabel),
       cancel_(new QPushButton(tr("Cancel"))) {
   setObjectName(QStringLiteral("mainWindow"));
+  keepWheelForScrolling();
   setWindowTitle(tr("Glisson[*] – %1").arg(tr(researchUseOnly)));
   setWindowIcon(icon(QStringLiteral("glisson")));
   setAcceptDrops(true);

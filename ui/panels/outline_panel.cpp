@@ -3,10 +3,12 @@
 #include <QButtonGroup>
 #include <QCheckBox>
 #include <QHeaderView>
+#include <QSettings>
 #include <QSpinBox>
 #include <QTreeWidget>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "panels/form.h"
 #include "panels/keys.h"
@@ -17,6 +19,8 @@ namespace glisson::panels {
 using tools::Command;
 
 namespace {
+
+const QString moreSetting = QStringLiteral("segment/moreNumbers");
 
 QString kPa(double value) {
   return std::isfinite(value) ? QString::number(value, 'f', 2) : QStringLiteral("–");
@@ -37,6 +41,7 @@ OutlinePanel::OutlinePanel(session::Session& session, const Keys& keys, QWidget*
   connect(&session_, &session::Session::statisticsChanged, this, &OutlinePanel::showStatistics);
   connect(&session_, &session::Session::contoursChanged, this, &OutlinePanel::showOutlines);
   connect(&session_, &session::Session::toolChanged, this, &OutlinePanel::showTool);
+  connect(&session_, &session::Session::loaded, this, &OutlinePanel::showTool);  // with the settings of the case
   connect(&session_, &session::Session::statusChanged, this, &OutlinePanel::showActions);
   connect(&keys_, &Keys::changed, this, &OutlinePanel::showTool);
   showTool();
@@ -79,6 +84,24 @@ void OutlinePanel::makeReadout(QVBoxLayout* side) {
   pooled_->setMinimumHeight(76);
   pooled_->setAlignment(Qt::AlignTop);
   side->addWidget(pooled_);
+  more_ = button("moreNumbers", {}, {}, tr("Median, smallest and largest value, mean weighted by area"));
+  more_->setProperty("flat", true);
+  more_->setProperty("narrow", true);
+  more_->setCheckable(true);
+  more_->setChecked(QSettings().value(moreSetting, false).toBool());
+  side->addWidget(more_, 0, Qt::AlignLeft);
+  full_ = labelled({}, "faint");
+  full_->setObjectName(QStringLiteral("fullReadout"));
+  side->addWidget(full_);
+  const auto unfold = [this](bool on) {
+    more_->setText(on ? tr("Fewer numbers") : tr("More numbers"));
+    full_->setVisible(on);
+  };
+  unfold(more_->isChecked());
+  connect(more_, &QPushButton::toggled, this, [unfold](bool on) {
+    unfold(on);
+    QSettings().setValue(moreSetting, on);
+  });
   cursor_ = labelled({}, "faint");
   cursor_->setObjectName(QStringLiteral("cursorReadout"));
   side->addWidget(cursor_);
@@ -161,8 +184,21 @@ void OutlinePanel::setScale(double high_kPa) {
   (high_kPa < 10.0 ? scale8_ : scale20_)->setChecked(true);
 }
 
+QString OutlinePanel::numbersInFull(const session::LiveStatistics& live) {
+  if (!live.pooled) return {};
+  const auto line = [](const elastography::Statistics& s) {
+    return tr("median %1, smallest %2, largest %3 kPa (µ)").arg(kPa(s.median_kPa), kPa(s.min_kPa), kPa(s.max_kPa));
+  };
+  QString text = tr("All slices: ") + line(live.pooled->pooled) +
+                 tr("; mean weighted by area %1 kPa (µ)").arg(kPa(live.pooled->areaWeightedMean_kPa));
+  if (live.slice) text += QLatin1Char('\n') + tr("This slice: ") + line(*live.slice);
+  return text;
+}
+
 void OutlinePanel::showStatistics() {
   const session::LiveStatistics& live = session_.statistics();
+  full_->setText(numbersInFull(live));
+  pooled_->setToolTip(full_->text());
   if (!live.pooled) {
     readout_->setText(QStringLiteral("–"));
     pooled_->setText(live.reason);
@@ -209,10 +245,13 @@ void OutlinePanel::showOutlines() {
     rows.push_back(
         {k, QStringLiteral("–"), mark == commands::SliceMark::NoLiver ? tr("no liver") : tr("no wave"), true});
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.slice > b.slice; });
+  QTreeWidgetItem* here = nullptr;  // or the row nearest to the slice shown
+  int off = std::numeric_limits<int>::max();
   for (const Row& r : rows) {
     auto* item = new QTreeWidgetItem(outlines_, {QString::number(r.slice + 1), r.vertices, r.state});
     item->setData(0, Qt::UserRole, r.slice);
     item->setToolTip(2, r.state);
+    if (slice_ >= 0 && std::abs(r.slice - slice_) < off) here = item, off = std::abs(r.slice - slice_);
     if (r.slice == slice_) {
       QFont bold = item->font(0);
       bold.setBold(true);
@@ -221,6 +260,7 @@ void OutlinePanel::showOutlines() {
       for (int c = 0; c < 3; ++c) item->setForeground(c, palette().color(QPalette::PlaceholderText));
     }
   }
+  if (here) outlines_->scrollToItem(here, QAbstractItemView::PositionAtCenter);
   QString text;
   if (!covered.drawn.empty()) {
     text = tr("%1 drawn, %2 interpolated, %3 empty between them.")

@@ -14,7 +14,8 @@ class QVBoxLayout;
 
 namespace glisson::session {
 class Session;
-}
+struct LiveStatistics;
+}  // namespace glisson::session
 
 namespace glisson::panels {
 
@@ -28,6 +29,8 @@ class OutlinePanel : public QFrame {
   void setSlice(int slice);  ///< of the MRI; −1: no image
   void setCursorText(const QString& text);
   void setScale(double high_kPa);
+  /// Median, range and, over all slices, the mean weighted by area; empty where nothing is measured.
+  static QString numbersInFull(const session::LiveStatistics& live);
 
  signals:
   void commandWanted(glisson::tools::Command command);
@@ -47,11 +50,11 @@ class OutlinePanel : public QFrame {
   session::Session& session_;
   const Keys& keys_;
   int slice_ = -1;
-  QLabel *stateText_, *readout_, *pooled_, *cursor_, *coverage_;
+  QLabel *stateText_, *readout_, *pooled_, *full_, *cursor_, *coverage_;
   QCheckBox* inner_;
   QSpinBox* erosion_;
   QTreeWidget* outlines_;
-  QPushButton *undo_, *redo_, *accept_, *delete_, *import_, *interpolate_, *acceptAll_, *scale8_, *scale20_;
+  QPushButton *undo_, *redo_, *accept_, *delete_, *import_, *interpolate_, *acceptAll_, *scale8_, *scale20_, *more_;
 };
 
 }  // namespace glisson::panels

@@ -1,16 +1,12 @@
 // What keys, buttons and menus of the Segment page do.
-#include <QInputDialog>
 #include <QKeyEvent>
-#include <QMenu>
 #include <cmath>
 
-#include "base/error.h"
 #include "panels/grey_window.h"
 #include "panels/image_layers.h"
 #include "panels/keys.h"
 #include "panels/outline_panel.h"
 #include "panels/segment_page.h"
-#include "roi/contour_stack.h"
 #include "session/session.h"
 #include "views/slice_view.h"
 
@@ -149,6 +145,25 @@ bool SegmentPage::runView(Command command) {
     case Command::NudgeDownFar:
       nudge({0.0, command == Command::NudgeUpFar ? -1.0 : 1.0}, 0);
       return true;
+    case Command::CrosshairLeft:
+    case Command::CrosshairRight:
+      moveCrosshair({command == Command::CrosshairLeft ? -1.0 : 1.0, 0.0});
+      return true;
+    case Command::CrosshairUp:
+    case Command::CrosshairDown:
+      moveCrosshair({0.0, command == Command::CrosshairUp ? -1.0 : 1.0});
+      return true;
+    case Command::CrosshairLeftFar:
+    case Command::CrosshairRightFar:
+      moveCrosshair({command == Command::CrosshairLeftFar ? -10.0 : 10.0, 0.0});
+      return true;
+    case Command::CrosshairUpFar:
+    case Command::CrosshairDownFar:
+      moveCrosshair({0.0, command == Command::CrosshairUpFar ? -10.0 : 10.0});
+      return true;
+    case Command::ClickHere:
+      clickAtCrosshair();
+      return true;
     case Command::FirstSlice:
       mri_->setSlice(0);
       return true;
@@ -223,6 +238,49 @@ void SegmentPage::nudge(const Eigen::Vector2d& pixels, int slices) {
     mri_->setSlice(mri_->slice() + slices);
 }
 
+tools::Pointer SegmentPage::atCrosshair() const {
+  tools::Pointer at;
+  at.px = mri_->plane().toPixel(cursor_.value_or(mri_->centre_lps()));
+  return at;
+}
+
+// In pixels of the image, as it is seen: an outline can be drawn without a mouse.
+void SegmentPage::moveCrosshair(const Eigen::Vector2d& pixels) {
+  const tools::SlicePlane plane = mri_->plane();
+  Eigen::Vector3d index = plane.grid.lpsToIndex(cursor_.value_or(mri_->centre_lps()));
+  index.head<2>() += (pixels.array() * plane.scale_px_mm.array().sign()).matrix();
+  const Eigen::Vector2d last = (plane.grid.size.head<2>().array() - 1).cast<double>().matrix();
+  index.head<2>() = index.head<2>().cwiseMax(0.0).cwiseMin(last);
+  index.z() = plane.slice;
+  const Eigen::Vector3d p_lps = plane.grid.indexToLps(index);
+  showCursor(p_lps);
+  mri_->setCursorByKeys();
+  const Eigen::Vector2d px = plane.toPixel(p_lps);
+  if (!mri_->rect().contains(QPointF(px.x(), px.y()).toPoint())) {
+    mri_->showPlace(p_lps, mri_->zoom_px_mm());
+    linkPlace(mri_, mre_);
+  }
+  if (hand_ == Hand::Measure)
+    measure_.move(atCrosshair().px, mri_->plane());
+  else
+    session_.apply(session_.tool().move(atCrosshair(), mri_->plane()));
+}
+
+void SegmentPage::clickAtCrosshair() {
+  moveCrosshair(Eigen::Vector2d::Zero());
+  const tools::Pointer at = atCrosshair();
+  const tools::SlicePlane plane = mri_->plane();
+  if (hand_ == Hand::Measure) {
+    measure_.press(at.px, plane);
+    measure_.release(at.px, plane);
+    return;
+  }
+  tools::PolygonTool& tool = session_.tool();
+  session_.apply(tool.press(at, plane));
+  session_.apply(tool.move(at, plane));
+  session_.apply(tool.release(at, plane));
+}
+
 void SegmentPage::inner(int change) {
   session::MeasureSettings settings = session_.measureSettings();
   if (change == 0) {
@@ -241,96 +299,6 @@ void SegmentPage::preset(int number) {
   const auto whole = windowOf(*mri_->volume().values);
   const auto [low, high] = number == 0 ? whole : presetOf(number - 1, whole);
   mri_->setWindow(low, high);
-}
-
-void SegmentPage::showMenu(const QPoint& at) {
-  auto* popup = new QMenu(this);
-  popup->setAttribute(Qt::WA_DeleteOnClose);
-  QMenu& menu = *popup;
-  menu.setObjectName(QStringLiteral("outlineMenu"));
-  const bool selected = session_.tool().selected().has_value();
-  const auto add = [&](Command command, bool enabled) {
-    QAction* action = menu.addAction(nameOf(command) + QLatin1Char('\t') + keys_.text(command));
-    action->setEnabled(enabled);
-    connect(action, &QAction::triggered, this, [this, command] { run(command); });
-  };
-  add(Command::CloseOrAccept, session_.tool().state() == tools::ToolState::Editing);
-  add(Command::Delete, selected);
-  add(Command::Split, selected);
-  add(Command::Trim, selected);
-  menu.addSeparator();
-  add(Command::Include, selected);
-  add(Command::Exclude, selected);
-  menu.addSeparator();
-  add(Command::Copy, true);
-  add(Command::Paste, session_.canPaste());
-  add(Command::PasteBetween, session_.canPaste());
-  QAction* copyTo = menu.addAction(tr("Copy to slices…"));
-  copyTo->setObjectName(QStringLiteral("copyToSlices"));
-  connect(copyTo, &QAction::triggered, this, &SegmentPage::askCopyTo);
-  menu.addSeparator();
-  add(Command::Propose, true);
-  add(Command::MarkNoLiver, true);
-  add(Command::MarkNoWave, true);
-  if (selected) {
-    menu.addSeparator();
-    const std::size_t polygon = *session_.tool().selected();
-    connect(menu.addAction(tr("Properties and statistics…")), &QAction::triggered, this,
-            [this, polygon] { showProperties(polygon); });
-  }
-  menu.popup(at);
-}
-
-void SegmentPage::askCopyTo() {
-  auto* dialog = new QInputDialog(this);
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setWindowTitle(tr("Copy to slices"));
-  dialog->setLabelText(tr("Copy to all empty slices up to slice:"));
-  dialog->setInputMode(QInputDialog::IntInput);
-  dialog->setIntRange(1, mri_->sliceCount());
-  dialog->setIntValue(mri_->slice() + 1);
-  connect(dialog, &QInputDialog::intValueSelected, this, [this](int last) {
-    session_.copyOutlines();
-    session_.pasteTo(std::min(last - 1, mri_->slice()), std::max(last - 1, mri_->slice()));
-  });
-  dialog->open();
-}
-
-void SegmentPage::showProperties(std::size_t index) {
-  if (index >= session_.contours().polygons.size()) return;
-  const roi::Polygon& polygon = session_.contours().polygons[index];
-  roi::ContourStack alone;
-  alone.polygons = {polygon};
-  alone.polygons.front().state = roi::PolygonState::Accepted;
-  alone.polygons.front().exclude = false;
-  QString area = tr("none");
-  try {
-    area = tr("%1 cm²").arg(roi::area_mm2(alone) / 100.0, 0, 'f', 2);
-  } catch (const Error& e) {
-    area = QString::fromUtf8(e.what());
-  }
-  const auto& live = session_.statistics();
-  QString stiffness = live.reason;
-  if (live.slice)
-    stiffness = tr("%1 ± %2 kPa (µ), %3 of %4 pixels count")
-                    .arg(live.slice->mean_kPa, 0, 'f', 2)
-                    .arg(live.slice->sd_kPa, 0, 'f', 2)
-                    .arg(live.slice->n)
-                    .arg(live.slice->n_before_mask);
-  const QString state = polygon.exclude                                    ? tr("left out")
-                        : polygon.state == roi::PolygonState::Accepted     ? tr("accepted")
-                        : polygon.state == roi::PolygonState::Interpolated ? tr("interpolated")
-                                                                           : tr("draft");
-  auto* dialog = new QInputDialog(this);
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setObjectName(QStringLiteral("outlineProperties"));
-  dialog->setWindowTitle(tr("Outline on slice %1").arg(mri_->slice() + 1));
-  dialog->setLabelText(tr("%1 vertices, %2\nArea: %3\nStiffness on this slice: %4\n\nName of the region:")
-                           .arg(polygon.points_lps_mm.cols())
-                           .arg(state, area, stiffness));
-  dialog->setTextValue(QString::fromStdString(session_.contours().name));
-  connect(dialog, &QInputDialog::textValueSelected, &session_, &session::Session::rename);
-  dialog->open();
 }
 
 }  // namespace glisson::panels

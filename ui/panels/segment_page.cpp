@@ -4,7 +4,10 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QSettings>
+#include <QSpinBox>
 #include <QSplitter>
+#include <algorithm>
 #include <cmath>
 
 #include "panels/form.h"
@@ -102,6 +105,20 @@ void SegmentPage::makeStrip(QHBoxLayout* strip) {
   window_ = tool("windowTool", "window", Command::WindowLevel);
   for (QPushButton* b : {polygon_, freehand_, sculpt_, ruler_, window_}) group->addButton(b);
   polygon_->setChecked(true);
+  spacing_ = new QSpinBox;
+  spacing_->setObjectName(QStringLiteral("freehandSpacing"));
+  spacing_->setRange(1, 100);
+  spacing_->setSuffix(tr(" px"));
+  spacing_->setToolTip(tr("Freehand: a vertex every so many pixels of the screen"));
+  spacing_->setAccessibleName(tr("Spacing of freehand vertices"));
+  const QString setting = QStringLiteral("segment/freehandSpacing");
+  spacing_->setValue(QSettings().value(setting, qRound(tools::reach::freehand_px)).toInt());
+  session_.tool().setFreehandSpacing(spacing_->value());
+  strip->addWidget(spacing_);
+  connect(spacing_, &QSpinBox::valueChanged, this, [this, setting](int px) {
+    session_.tool().setFreehandSpacing(px);
+    QSettings().setValue(setting, px);
+  });
   strip->addStretch();
   auto* presets = new QComboBox;
   presets->setObjectName(QStringLiteral("windowPreset"));
@@ -169,27 +186,34 @@ void SegmentPage::connectCursor() {
   });
   connect(mri_, &SliceView::placeChanged, this, [this] { linkPlace(mri_, mre_); });
   connect(mre_, &SliceView::placeChanged, this, [this] { linkPlace(mre_, mri_); });
-  const auto both = [this](const std::optional<Eigen::Vector3d>& p) {
-    cursor_ = p;
-    mri_->setCursor(p);
-    mre_->setCursor(p);
-    QString text;
-    if (p && session_.images().stiffness) {
-      const image::ScalarVolume& map = session_.images().stiffness->values_kPa;
-      const Eigen::Vector3i voxel = map.grid.lpsToIndex(*p).array().round().matrix().cast<int>();
-      if (map.grid.contains(voxel))
-        text = tr("Under the cursor: %1 kPa (µ)").arg(static_cast<double>(map.at(voxel)), 0, 'f', 2);
-    }
-    panel_->setCursorText(text);
-  };
   for (SliceView* view : {mri_, mre_}) {
-    connect(view, &SliceView::cursorMoved, this, [both](const Eigen::Vector3d& p) { both(p); });
-    connect(view, &SliceView::cursorLeft, this, [both] { both(std::nullopt); });
+    // What is fitted or has another size is settled by the MRI.
+    connect(view, &SliceView::resettled, this, [this] { linkPlace(mri_, mre_); });
+    connect(view, &SliceView::cursorMoved, this, &SegmentPage::showCursor);
+    connect(view, &SliceView::cursorLeft, this, [this] { showCursor(std::nullopt); });
+    connect(view, &SliceView::windowRefused, this, [this] {
+      emit session_.message(tr("The stiffness scale is 0–8 or 0–20 kPa, so that a colour always means the same: %1.")
+                                .arg(keys_.tip(Command::StiffnessScale)));
+    });
   }
 }
 
+void SegmentPage::showCursor(const std::optional<Eigen::Vector3d>& p_lps) {
+  cursor_ = p_lps;
+  mri_->setCursor(p_lps);
+  mre_->setCursor(p_lps);
+  QString text;
+  if (p_lps && session_.images().stiffness) {
+    const image::ScalarVolume& map = session_.images().stiffness->values_kPa;
+    const Eigen::Vector3i voxel = map.grid.lpsToIndex(*p_lps).array().round().matrix().cast<int>();
+    if (map.grid.contains(voxel))
+      text = tr("Under the cursor: %1 kPa (µ)").arg(static_cast<double>(map.at(voxel)), 0, 'f', 2);
+  }
+  panel_->setCursorText(text);
+}
+
 void SegmentPage::linkPlace(SliceView* from, SliceView* to) {
-  if (!linked_ || following_ || !to->hasVolume()) return;
+  if (!linked_ || following_ || !from->hasVolume() || !to->hasVolume()) return;
   following_ = true;
   to->showPlace(from->centre_lps(), from->zoom_px_mm());
   following_ = false;
@@ -209,10 +233,23 @@ void SegmentPage::showImages() {
   std::tie(mri.low, mri.high) = windowOf(*images.mri);
   mri.title = tr("MRI");
   mri.sopInstanceUids = session_.scan().series[static_cast<std::size_t>(images.mriSeries)].sopInstanceUids;
+  const bool other = !mri_->hasVolume() || !mri_->volume().values->grid.sameGeometry(images.mri->grid);
   mri_->setVolume(mri);
   layers_->setImages(images);
+  if (other) showFirstSlice();
+  linkPlace(mri_, mre_);
   session_.setShownPlane(mri_->plane());
   showSlice();
+}
+
+// The slice nearest to the middle that lies at the height of a slice of the elastogram: what is drawn there first is
+// seen on the stiffness map as it is.
+void SegmentPage::showFirstSlice() {
+  if (!session_.images().stiffness) return;
+  const image::Grid& map = session_.images().stiffness->values_kPa.grid;
+  const Eigen::Vector3d middle = map.lpsToIndex(mri_->plane().toLps(mri_->plane().offset_px));
+  const int k = std::clamp(static_cast<int>(std::lround(middle.z())), 0, map.size.z() - 1);
+  mri_->showPoint(map.indexToLps({0.5 * map.size.x(), 0.5 * map.size.y(), 1.0 * k}));
 }
 
 void SegmentPage::showSlice() {
@@ -229,6 +266,7 @@ void SegmentPage::showTool() {
                         : mode == tools::ToolMode::Sculpt   ? sculpt_
                                                             : polygon_;
   active->setChecked(true);
+  spacing_->setVisible(active == freehand_);
   mri_->update();
   mre_->update();
 }

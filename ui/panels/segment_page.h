@@ -11,6 +11,7 @@
 class QHBoxLayout;
 class QKeyEvent;
 class QPushButton;
+class QSpinBox;
 
 namespace glisson::session {
 class Session;
@@ -56,6 +57,8 @@ class SegmentPage : public QWidget {
   void showTool();
   void showSlice();
   void linkPlace(views::SliceView* from, views::SliceView* to);
+  void showCursor(const std::optional<Eigen::Vector3d>& p_lps);
+  void showFirstSlice();
   // segment_commands.cpp
   void keyDown(QKeyEvent* event);
   void keyUp(QKeyEvent* event);
@@ -63,8 +66,12 @@ class SegmentPage : public QWidget {
   bool runView(tools::Command command);
   void take(Hand hand, tools::ToolMode mode);
   void nudge(const Eigen::Vector2d& pixels, int slices);
+  void moveCrosshair(const Eigen::Vector2d& pixels);
+  tools::Pointer atCrosshair() const;
+  void clickAtCrosshair();
   void inner(int change);
   void preset(int number);
+  // segment_dialogs.cpp
   void showMenu(const QPoint& at);
   void showProperties(std::size_t polygon);
   void askCopyTo();
@@ -75,6 +82,7 @@ class SegmentPage : public QWidget {
   ImageLayers* layers_;
   OutlinePanel* panel_;
   QPushButton *polygon_, *freehand_, *sculpt_, *ruler_, *window_, *link_;
+  QSpinBox* spacing_;  ///< of freehand points
   tools::MeasureTool measure_;
   Hand hand_ = Hand::Outline;
   bool linked_ = true, following_ = false;

@@ -131,7 +131,9 @@ StepButton::StepButton(Step step, QWidget* parent) : QAbstractButton(parent), st
 void StepButton::setStatus(const session::StepStatus& status) {
   if (status_ == status) return;
   status_ = status;
-  setToolTip(QStringLiteral("%1 (%2): %3").arg(nameOf(step_), wordOf(status.state), status.detail));
+  setToolTip(
+      QStringLiteral("%1 (%2), %3: %4")
+          .arg(nameOf(step_), shortcut().toString(QKeySequence::NativeText), wordOf(status.state), status.detail));
   setAccessibleDescription(toolTip());
   update();
 }

@@ -54,7 +54,9 @@ QString styleSheet(const Colours& c) {
       padding: 3px 6px; min-height: 20px; selection-background-color: %accent; }
     QSpinBox:focus, QDoubleSpinBox:focus { border-color: %accent; }
     QCheckBox::indicator { width: 14px; height: 14px; border: 1px solid %faint; border-radius: 3px; background: %base; }
-    QCheckBox::indicator:checked { background: %accent; border-color: %accent; }
+    QCheckBox::indicator:checked { background: %accent; border-color: %accent; image: url(:/icons/tick.svg); }
+    QCheckBox::indicator:checked:disabled { background: %faint; border-color: %faint; }
+    QCheckBox:focus { color: %accent; }
     QTreeWidget::item { padding: 4px 5px; }
     QComboBox { background: %base; border: 1px solid %border; border-radius: 5px; padding: 3px 0 3px 6px; min-height: 20px; }
     QComboBox:hover, QComboBox:focus { border-color: %accent; } QComboBox:disabled { color: %faint; }
@@ -102,6 +104,7 @@ Theme currentTheme() {
 }
 
 void applyTheme(Theme theme) {
+  bringIcons();  // the style sheet names some
   theme_ = theme;
   const Colours c = coloursOf(theme);
   QPalette palette;

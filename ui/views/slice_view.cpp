@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/outline.h"
+
 namespace glisson::views {
 
 namespace {
@@ -119,6 +121,7 @@ void SliceView::fit() {
       0.5 * grid.spacing_mm.head<2>().cwiseProduct((grid.size.head<2>().array() - 1).matrix().cast<double>());
   offset_px_ = Eigen::Vector2d(area.center().x(), area.center().y()) - zoom_px_mm_ * axisSigns().cwiseProduct(half_mm);
   update();
+  emit resettled();
 }
 
 tools::SlicePlane SliceView::plane() const {
@@ -168,7 +171,7 @@ void SliceView::showPlace(const Eigen::Vector3d& centre_lps, double zoom_px_mm) 
 }
 
 void SliceView::resizeEvent(QResizeEvent*) {
-  if (fitted_) fit();
+  fitted_ ? fit() : emit resettled();
 }
 
 void SliceView::mousePressEvent(QMouseEvent* event) {
@@ -179,7 +182,7 @@ void SliceView::mousePressEvent(QMouseEvent* event) {
   if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && space_))
     drag_ = Drag::Pan;
   else if (event->button() == Qt::LeftButton && (alt || leftWindows_))
-    drag_ = Drag::Window;
+    volume_.stiffness ? emit windowRefused() : void(drag_ = Drag::Window);
   else if (event->button() == Qt::RightButton)
     drag_ = Drag::Zoom;
   else if (event->button() == Qt::LeftButton) {
@@ -192,6 +195,7 @@ void SliceView::mouseMoveEvent(QMouseEvent* event) {
   if (!hasVolume()) return;
   const QPointF at = event->position(), step = at - last_;
   last_ = at;
+  byKeys_ = false;
   if ((at - pressed_).manhattanLength() > tools::reach::drag_px) moved_ = true;
   switch (drag_) {
     case Drag::Pan:
@@ -207,7 +211,7 @@ void SliceView::mouseMoveEvent(QMouseEvent* event) {
       // Right widens the window, up makes the picture brighter, relative to what is shown.
       const double width = volume_.high - volume_.low, level = 0.5 * (volume_.high + volume_.low);
       const double newWidth = width * std::exp(step.x() * 0.005);
-      const double newLevel = level + step.y() * width * 0.004;
+      const double newLevel = volume_.wave ? 0.0 : level + step.y() * width * 0.004;  // white is no displacement
       setWindow(newLevel - 0.5 * newWidth, newLevel + 0.5 * newWidth);
       emit windowChanged(volume_.low, volume_.high);
       break;
@@ -263,6 +267,23 @@ void SliceView::keyReleaseEvent(QKeyEvent* event) {
     space_ = false;
   else
     emit keyUp(event);
+}
+
+// When an outline changes, not at every frame: it takes the square of its vertices.
+void SliceView::judgeCrossings() {
+  if (!contours_) return;
+  const tools::SlicePlane shown = plane();
+  judged_.resize(contours_->polygons.size());
+  for (std::size_t p = 0; p < judged_.size(); ++p) {
+    const roi::Polygon& polygon = contours_->polygons[p];
+    const Eigen::Matrix3Xd& points = polygon.points_lps_mm;
+    Judged& judged = judged_[p];
+    if (!shown.holds(polygon) || (judged.points_lps_mm.cols() == points.cols() && judged.points_lps_mm == points))
+      continue;
+    tools::Outline flat(2, points.cols());
+    for (Eigen::Index i = 0; i < points.cols(); ++i) flat.col(i) = shown.toPlane_mm(points.col(i));
+    judged = {points, tools::crossesItself(flat, true)};
+  }
 }
 
 void SliceView::setNote(const QString& note) {

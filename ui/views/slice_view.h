@@ -31,8 +31,8 @@ struct ShownVolume {
 };
 
 /// One slice of a volume with contours, cursor and readouts. Wheel: slice; Ctrl+wheel or right drag: zoom; middle drag
-/// or Space+drag: pan; Alt+drag: window and level. The left button and keys are passed on to whoever holds the tool,
-/// with every other key.
+/// or Space+drag: pan; Alt+drag: window and level (not of stiffness; of a wave the width alone). The left button and
+/// keys are passed on to whoever holds the tool, with every other key.
 class SliceView : public QWidget {
   Q_OBJECT
  public:
@@ -66,6 +66,9 @@ class SliceView : public QWidget {
   void setSlice(int slice);
   void showPoint(const Eigen::Vector3d& p_lps);  ///< goes to the slice nearest to the point
   void setCursor(std::optional<Eigen::Vector3d> p_lps);
+  /// The cursor is moved by keys: it is shown though the mouse is over the view, until the mouse moves.
+  void setCursorByKeys() { byKeys_ = true, update(); }
+  bool cursorByKeys() const { return byKeys_; }
   void setWindow(double low, double high);
   void fit();
   /// Shows the same place at the same scale as another view does.
@@ -85,12 +88,14 @@ class SliceView : public QWidget {
   void cursorMoved(const Eigen::Vector3d& p_lps);
   void cursorLeft();
   void windowChanged(double low, double high);
+  void windowRefused();  ///< by hand: colours of the stiffness mean the same numbers always
   void toolPressed(const glisson::tools::Pointer& at);
   void toolMoved(const glisson::tools::Pointer& at);
   void toolReleased(const glisson::tools::Pointer& at);
   void toolDoubleClicked(const glisson::tools::Pointer& at);
   void toolRightClicked(const glisson::tools::Pointer& at);
   void placeChanged();  ///< zoomed or panned by hand
+  void resettled();     ///< fitted anew, or the view has another size
   void keyDown(QKeyEvent* event);
   void keyUp(QKeyEvent* event);
 
@@ -121,6 +126,7 @@ class SliceView : public QWidget {
   void paintColourBar(QPainter& painter) const;
   void paintScaleBar(QPainter& painter) const;
   QRectF imageArea() const;
+  void judgeCrossings();
 
   ShownVolume volume_;
   const roi::ContourStack* contours_ = nullptr;
@@ -142,7 +148,13 @@ class SliceView : public QWidget {
   bool stale_ = true;
   Drag drag_ = Drag::None;
   QPointF pressed_, last_;
-  bool moved_ = false, space_ = false, hidden_ = false, leftWindows_ = false;
+  bool moved_ = false, space_ = false, hidden_ = false, leftWindows_ = false, byKeys_ = false;
+  /// Of each outline as it was when it was last judged.
+  struct Judged {
+    Eigen::Matrix3Xd points_lps_mm;
+    bool crosses = false;
+  };
+  std::vector<Judged> judged_;
   const tools::MeasureTool* measurements_ = nullptr;
   const roi::ContourStack* second_ = nullptr;
   std::shared_ptr<const image::Mask> inner_;

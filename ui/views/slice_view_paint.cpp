@@ -169,7 +169,7 @@ void SliceView::paintContours(QPainter& painter) const {
     const bool moving = selected && tool_->preview().cols() > 0;
     const QPolygonF outline = toScreen(moving ? tool_->preview() : polygon.points_lps_mm, shown);
     const bool accepted = polygon.state == roi::PolygonState::Accepted;
-    const bool crossing = moving && tool_->crosses();
+    const bool crossing = moving ? tool_->crosses() : judged_[p].crosses;
     // Interpolated outlines count like accepted ones: their colour, but dashed until somebody has looked at them.
     const bool draft = polygon.state == roi::PolygonState::Draft;
     const QColor colour = crossing          ? crossingColour
@@ -277,10 +277,10 @@ void SliceView::paintOutlineInWork(QPainter& painter, const tools::SlicePlane& s
 }
 
 void SliceView::paintCursor(QPainter& painter) const {
-  if (!cursor_ || underMouse()) return;
+  if (!cursor_ || (underMouse() && !byKeys_)) return;
   const QPointF at = point(plane().toPixel(*cursor_));
   painter.setRenderHint(QPainter::Antialiasing, false);
-  painter.setPen(QPen(QColor(120, 220, 160, 170), 1.0));
+  painter.setPen(QPen(QColor(120, 220, 160, byKeys_ ? 240 : 170), 1.0));
   painter.drawLine(QPointF(at.x(), 0), QPointF(at.x(), at.y() - 8));
   painter.drawLine(QPointF(at.x(), at.y() + 8), QPointF(at.x(), height()));
   painter.drawLine(QPointF(0, at.y()), QPointF(at.x() - 8, at.y()));
@@ -363,6 +363,7 @@ void SliceView::paintEvent(QPaintEvent*) {
     return;
   }
   renderBackdrop();
+  judgeCrossings();
   painter.drawImage(QPointF(0.0, 0.0), backdrop_);
   paintContours(painter);
   paintMarks(painter, marks_, [this](const Eigen::Vector3d& p) { return seenAt(p); });
