@@ -7,8 +7,7 @@
 #include "base/error.h"
 #include "elastography/fill.h"
 #include "image/components.h"
-#include "image/io.h"
-#include "image/resample.h"
+#include "image/coverage.h"
 
 namespace glisson::pipeline::detail {
 namespace {
@@ -48,7 +47,7 @@ image::Mask cropped(const image::Mask& mask) {
   return out;
 }
 
-/// Cells of the wanted size, filled where at least half of their sample points lie inside the mask interpolated at 1/2.
+/// Cells of the wanted size, laid centrally over the mask, of the mask's volume.
 image::Mask resampled(const image::Mask& mask, const Eigen::Vector3d& cell_mm) {
   const auto [low, high] = filledRange(mask);
   image::Grid grid;
@@ -61,27 +60,7 @@ image::Mask resampled(const image::Mask& mask, const Eigen::Vector3d& cell_mm) {
   const Eigen::Vector3d slack_mm = 0.5 * (grid.size.cast<double>().cwiseProduct(cell_mm) - extent_mm);
   grid.origin_lps_mm = corner_mm + grid.direction * (0.5 * cell_mm - slack_mm);
 
-  image::ScalarVolume soft(mask.grid);
-  for (std::size_t i = 0; i < soft.values.size(); ++i) soft.values[i] = mask.values[i] ? 1.0f : 0.0f;
-  // Enough sample points per cell that none of the mask's voxels is passed over.
-  const Eigen::Vector3i per = cell_mm.cwiseQuotient(mask.grid.spacing_mm).array().ceil().cast<int>().max(2);
-  image::Mask out(grid);
-  for (int k = 0; k < grid.size.z(); ++k)
-    for (int j = 0; j < grid.size.y(); ++j)
-      for (int i = 0; i < grid.size.x(); ++i) {
-        int inside = 0;
-        for (int c = 0; c < per.z(); ++c)
-          for (int b = 0; b < per.y(); ++b)
-            for (int a = 0; a < per.x(); ++a) {
-              const Eigen::Vector3d sub =
-                  (Eigen::Vector3d(a, b, c) + Eigen::Vector3d::Constant(0.5)).cwiseQuotient(per.cast<double>()) -
-                  Eigen::Vector3d::Constant(0.5);
-              const Eigen::Vector3d p = grid.indexToLps(Eigen::Vector3d(i, j, k) + sub);
-              if (image::sampleLinear(soft, p, 0.0f) >= 0.5f) ++inside;
-            }
-        out.at(i, j, k) = 2 * inside >= per.prod() ? 1 : 0;
-      }
-  return cropped(out);
+  return cropped(image::resampleKeepingVolume(mask, grid));
 }
 
 float youngs_kPa(double value_kPa, StiffnessQuantity quantity, double poisson) {

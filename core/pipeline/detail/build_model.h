@@ -10,8 +10,8 @@
 namespace glisson::pipeline::detail {
 
 /// Cells of the body: the box's, the mask's own voxels, or the mask resampled to cell_mm. For a patient the default
-/// cell is a cube of two MRI pixels. A resampled cell is filled where at least half of it lies inside the (linearly
-/// interpolated) mask. Empty margins are cut away.
+/// cell is a cube of two MRI pixels. Resampled cells are filled where half of them is covered, and at the surface so that
+/// the volume is the mask's (image::resampleKeepingVolume). Empty margins are cut away.
 image::Mask bodyCells(const Scene& scene, const Inputs& inputs);
 
 /// The body with the scene's own material. Throws BadInput (moduli not positive: voxel and slice).
