@@ -23,10 +23,9 @@ def table_texts(root):
     texts = set(re.findall(r"constexpr const char\* \w+ = " + STRING, source))
     texts.update(row[2] for row in re.findall(r"\{C::\w+,\s*" + STRING + r",\s*" + STRING + r",\s*\w+,\s*" + STRING,
                                               source))
-    gestures = source[source.index("gestureRows = {{"):]
-    gestures = gestures[:gestures.index("}};")]
-    texts.update(t for t in re.findall(STRING, gestures) if t)
-    return texts
+    for rows in re.findall(r"(?:gesture|scene)Rows = \{\{(.*?)\}\};", source, re.S):
+        texts.update(t for t in re.findall(STRING, rows) if t)
+    return {t.replace('\\"', '"') for t in texts}
 
 
 def command_texts(root):
