@@ -7,6 +7,8 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QMessageBox>
+#include <QProcess>
+#include <QProcessEnvironment>
 #include <QPushButton>
 #include <QStatusBar>
 #include <QTimer>
@@ -148,7 +150,7 @@ class Loading : public QObject, private glisson::test::WindowBench {
     QVERIFY2(journals().empty(), "the journal of the patient before would take what is drawn now");
     QVERIFY(afterLoading([&] { session().setRole(0, SeriesRole::Anatomical); }));
     QVERIFY2(session().images().mri, qPrintable(session().status(Step::Load).detail));
-    const auto& series = session().scan().series[0];
+    const auto& series = session().scan().series[static_cast<std::size_t>(session().images().mriSeries)];
     QCOMPARE(session().contours().seriesUid, series.uid);
     QCOMPARE(session().contours().frameOfReferenceUid, series.frameOfReferenceUid);
     acceptASquare();
@@ -393,6 +395,26 @@ class Loading : public QObject, private glisson::test::WindowBench {
       QVERIFY(!std::filesystem::is_empty(cache));
     }
     QVERIFY(std::filesystem::is_empty(cache));
+  }
+
+  void theProgramKeepsItsSettingsUnderItsOwnName() {
+    QProcess program;
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    for (const char* place : {"CONFIG", "DATA", "CACHE"})
+      environment.insert(QStringLiteral("XDG_%1_HOME").arg(QLatin1String(place)), path("home/") + QLatin1String(place));
+    program.setProcessEnvironment(environment);
+    program.start(QStringLiteral(GLISSON_PROGRAM),
+                  {"--screenshot", path("picture.png"), "--step", "load", QString::fromStdString(first_.string())});
+    QVERIFY(program.waitForFinished(wait_ms));
+    QVERIFY2(program.exitCode() == 0, program.readAllStandardError().constData());
+    const auto config = folder() / "home" / "CONFIG";
+    QVERIFY(std::filesystem::exists(config / "glisson" / "glisson.conf"));  // it opened something, which is recent now
+    QVERIFY(!std::filesystem::exists(config / "Unknown Organization"));
+    // An orderly end leaves neither a journal nor anything that was worked on.
+    for (const char* place : {"DATA/glisson/journals", "CACHE/glisson"}) {
+      const auto left = folder() / "home" / place;
+      QVERIFY2(!std::filesystem::exists(left) || std::filesystem::is_empty(left), place);
+    }
   }
 
   void themeAndPlaceOnTheScreenAreRemembered() {
