@@ -49,6 +49,7 @@ void eachNumber(CaseRecord& r, Visit&& visit) {
   visit("vessel_mean_mm", r.vessel_mean_mm);
   visit("vessel_beyond_5mm", r.vessel_beyond_5mm);
   visit("discretisation_mm", r.discretisation_mm);
+  visit("difference_error_mm", r.difference_error_mm);
   visit("volume_mL", r.volume_mL);
   visit("p95_strain", r.p95_strain);
   visit("rotation_deg", r.rotation_deg);
@@ -81,6 +82,7 @@ CaseRecord recordOf(const std::string& id, const std::string& key, const std::st
   r.vessel_mean_mm = numberAt(j, {"difference", "vessels", "mean_mm"});
   r.vessel_beyond_5mm = numberAt(j, {"difference", "vessels", "fraction_beyond_5mm"});
   r.discretisation_mm = numberAt(j, {"discretisation_error", "max_mm"});
+  r.difference_error_mm = numberAt(j, {"discretisation_error", "difference", "at_retractor_mm"});
   r.volume_mL = numberAt(j, {"model", "volume_mL"});
   r.p95_strain = numberAt(j, {"p95_strain"});
   r.rotation_deg = numberAt(j, {"max_rotation_deg"});

@@ -19,7 +19,8 @@ struct CaseRecord {
   long long voxels = 0;     ///< that the mean is over
   double mean_mm = 0.0, p95_mm = 0.0, max_mm = 0.0, at_retractor_mm = 0.0;  ///< MRE against atlas
   double vessel_mean_mm = 0.0, vessel_beyond_5mm = 0.0;
-  double discretisation_mm = 0.0;
+  double discretisation_mm = 0.0;    ///< of a displacement, at its worst cell
+  double difference_error_mm = 0.0;  ///< discretisation error of at_retractor_mm
   double volume_mL = 0.0, p95_strain = 0.0, rotation_deg = 0.0;
   long long dofs = 0;
   bool linear_valid = false;

@@ -98,15 +98,15 @@ void addChart(report::Page& page, const Chart& chart, const std::string& name, c
 std::string patientsCsv(const Summary& s) {
   report::Csv csv({"case", "status", "shear_kPa", "youngs_kPa", "sd_kPa", "voxels", "volume_mL", "mean_mm", "p95_mm",
                    "max_mm", "at_retractor_mm", "vessel_mean_mm", "vessel_beyond_5mm", "discretisation_mm",
-                   "p95_strain", "rotation_deg", "linear_valid", "dofs"});
+                   "difference_error_mm", "p95_strain", "rotation_deg", "linear_valid", "dofs"});
   const auto cell = [](double v) { return std::isfinite(v) ? number(v, 10) : std::string(); };
   for (const CaseRecord& r : s.records) {
     constexpr std::array<const char*, 3> status = {"done", "rejected", "failed"};
     csv.row({r.outcome.id, status[static_cast<std::size_t>(r.outcome.status)], cell(r.shear_kPa), cell(r.youngs_kPa),
              cell(r.sd_kPa), std::to_string(r.voxels), cell(r.volume_mL), cell(r.mean_mm), cell(r.p95_mm),
              cell(r.max_mm), cell(r.at_retractor_mm), cell(r.vessel_mean_mm), cell(r.vessel_beyond_5mm),
-             cell(r.discretisation_mm), cell(r.p95_strain), cell(r.rotation_deg), r.linear_valid ? "yes" : "no",
-             std::to_string(r.dofs)});
+             cell(r.discretisation_mm), cell(r.difference_error_mm), cell(r.p95_strain), cell(r.rotation_deg),
+             r.linear_valid ? "yes" : "no", std::to_string(r.dofs)});
   }
   return csv.text();
 }
@@ -260,13 +260,14 @@ std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& option
   rows.clear();
   for (const CaseRecord& r : s.records)
     rows.push_back({r.outcome.id, orDash(r.shear_kPa), orDash(r.youngs_kPa), orDash(r.volume_mL, 4), orDash(r.mean_mm),
-                    orDash(r.at_retractor_mm), orDash(r.discretisation_mm, 2), orDash(r.p95_strain, 2),
+                    orDash(r.at_retractor_mm), orDash(r.difference_error_mm, 2), orDash(r.discretisation_mm, 2),
+                    orDash(r.p95_strain, 2),
                     r.outcome.status != CaseOutcome::Status::Done ? "–"
                     : r.linear_valid                              ? "valid"
                                                                   : "beyond its range"});
   page.heading("Every patient");
   page.table({"Patient", "µ, kPa", "E = 3µ, kPa", "Volume, mL", "Mean difference, mm", "At the retractor, mm",
-              "Discretisation error, mm", "Strain (95 %)", "Linear theory"},
+              "Its discretisation error, mm", "That of the worst place, mm", "Strain (95 %)", "Linear theory"},
              rows);
   text("report.html", report::html(page));
   text("report.pdf", report::pdf(page));

@@ -115,13 +115,16 @@ void methods(report::Page& page, const Summary& s) {
 
 void reservations(report::Page& page, const Summary& s) {
   std::size_t beyond = 0;
-  std::vector<double> strain, rotation, error;
+  std::vector<double> strain, rotation, error, ofDifference;
+  std::size_t undecided = 0;
   for (const CaseRecord& r : s.records) {
     if (r.outcome.status != CaseOutcome::Status::Done) continue;
     if (!r.linear_valid) ++beyond;
     strain.push_back(r.p95_strain);
     rotation.push_back(r.rotation_deg);
     error.push_back(r.discretisation_mm);
+    ofDifference.push_back(r.difference_error_mm);
+    if (std::abs(r.at_retractor_mm - defaults::clinicallySignificant.mm()) <= r.difference_error_mm) ++undecided;
   }
   if (beyond > 0)
     page.warning("In " + std::to_string(beyond) + " of " + patients(s.retraction.left) +
@@ -132,11 +135,14 @@ void reservations(report::Page& page, const Summary& s) {
                  "°). The differences are those of the linear model that was asked for.");
   const Spread e = spreadOf(error);
   if (e.n > 0)
-    page.paragraph(
-        "The largest discretisation error of a displacement, estimated from cells twice as large, is " +
-        inWords(e, "mm") +
-        ". It is an error of each of the two displacements at its worst cell; how much of it is left in their "
-        "difference was not estimated.");
+    page.paragraph("The largest discretisation error of a displacement, estimated from cells twice as large, is " +
+                   inWords(e, "mm") + ". It is an error of each of the two displacements at its worst cell.");
+  if (const Spread d = spreadOf(ofDifference); d.n > 0)
+    page.paragraph("The difference at the retractor has a discretisation error of " + inWords(d, "mm") +
+                   ", estimated in the same way. In " + std::to_string(undecided) + " of " +
+                   patients(s.retraction.left) +
+                   " it is as large as the distance from 5 mm: there the cells leave open on which side the difference "
+                   "lies.");
 }
 
 void sensitivityTable(report::Page& page, const Summary& s) {

@@ -227,17 +227,26 @@ std::vector<PlanStep> plan(const Scene& s) {
       : n.newton     ? "no report is asked for that would show it beside the answer"
                      : "the answer is the linear one",
       (n.compare ? 2.0 : 1.0) * solve_s, solve_MB);
-  add("discretisation-error", n.discretisation,
-      n.discretisation
-          ? "the answer says how far its cells let it be believed: a second solve on cells of twice the edge"
-          : "estimated for static answers only",
-      n.meshfree ? 1.2 * solve_s : (n.newton ? 1.5 : 0.15) * solve_s, solve_MB / 8);
   add("condensed-response", n.condensed,
       n.condensed ? "the solver is \"condensed\"" : "one load case: a response matrix would not pay");
   add("atlas-solve", n.compare,
       n.compare ? "the same load on the textbook stiffness; left out where the answer follows from the first"
                 : "no comparison is asked for",
       solve_s, solve_MB);
+  add("discretisation-error", n.discretisation,
+      n.discretisation
+          ? (n.compare
+                 ? "the answers and their difference say how far their cells let them be believed: both again on cells "
+                   "of twice the edge"
+                 : "the answer says how far its cells let it be believed: a second solve on cells of twice the "
+                   "edge")
+          : "estimated for static answers only",
+      (n.compare ? 2.0 : 1.0) *
+          (n.meshfree ? 1.2
+           : n.newton ? 1.5
+                      : 0.15) *
+          solve_s,
+      solve_MB / 8);
   add("difference", n.compare, n.compare ? "how far apart the two place the same tissue" : "no comparison is asked for",
       0.01);
   add("strain", n.strain, "every result says whether linear theory can be trusted", 1e-7 * cells);

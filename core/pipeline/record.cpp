@@ -225,6 +225,12 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
       j["discretisation_error"]["mean_mm"] = e.mean_mm;
       j["discretisation_error"]["p95_mm"] = e.p95_mm;
       j["discretisation_error"]["max_mm"] = e.max_mm;
+      if (e.at_retractor_mm) j["discretisation_error"]["at_retractor_mm"] = *e.at_retractor_mm;
+      if (e.difference) {
+        j["discretisation_error"]["difference"] = {{"mean_mm", e.difference->mean_mm}};
+        if (e.difference->at_retractor_mm)
+          j["discretisation_error"]["difference"]["at_retractor_mm"] = *e.difference->at_retractor_mm;
+      }
     }
   }
   if (r.atlas) j["atlas"] = resultToJson(*r.atlas, scene);

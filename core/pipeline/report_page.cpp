@@ -12,8 +12,8 @@
 namespace glisson::pipeline::detail {
 namespace {
 
-using report::Page;
 using report::number;
+using report::Page;
 
 /// Components that are rounding beside the largest are zero.
 std::string inWords(const Eigen::Vector3d& v) {
@@ -34,6 +34,9 @@ void results(Page& page, const RunResult& r) {
     rows.emplace_back("At the retractor",
                       number(d.at_retractor_mm) + " mm" +
                           (d.clinically_significant ? " (5 mm or more: clinically significant)" : ""));
+    if (r.discretisation && r.discretisation->difference && r.discretisation->difference->at_retractor_mm)
+      rows.emplace_back("At the retractor, error from the size of the cells",
+                        "about " + number(*r.discretisation->difference->at_retractor_mm) + " mm");
     if (!d.vessel_mm.empty()) {
       rows.emplace_back("Vessel landmarks, mean", number(d.vesselMean_mm) + " mm");
       rows.emplace_back("Vessel landmarks 5 mm or more apart", number(100 * d.vesselFractionBeyond, 3) + " %");
@@ -77,12 +80,19 @@ void trust(Page& page, const RunResult& r) {
        {"Reaction", inWords(r.primary.reaction_N) + " N"}});
   if (r.discretisation) {
     const retraction::DiscretisationError& e = *r.discretisation;
-    if (e.known)
-      page.table({"Discretisation error", "mean", "95 % below", "largest"},
-                 {{"estimated from cells of " + number(e.cell_mm) + " and " + number(e.coarse_mm) + " mm",
-                   number(e.mean_mm, 3) + " mm", number(e.p95_mm, 3) + " mm", number(e.max_mm, 3) + " mm"}});
-    else
+    if (e.known) {
+      const auto mm = [](double v) { return number(v, 3) + " mm"; };
+      const auto there = [&](const std::optional<double>& v) { return v ? mm(*v) : std::string("–"); };
+      std::vector<std::vector<std::string>> rows = {
+          {"of a displacement", mm(e.mean_mm), mm(e.p95_mm), mm(e.max_mm), there(e.at_retractor_mm)}};
+      if (e.difference)
+        rows.push_back({"of the difference MRE against atlas", mm(e.difference->mean_mm), "–", "–",
+                        there(e.difference->at_retractor_mm)});
+      page.table({"Discretisation error", "mean", "95 % below", "largest", "at the retractor"}, rows);
+      page.paragraph("Estimated from cells of " + number(e.cell_mm) + " and " + number(e.coarse_mm) + " mm.");
+    } else {
       page.paragraph(e.note);
+    }
   } else {
     page.paragraph("The discretisation error of this run was not estimated.");
   }

@@ -107,6 +107,20 @@ std::string framesInWords(const mechanics::MeshfreeOptions& asked, const retract
   return text;
 }
 
+/// Says so where the cells leave open on which side of the clinical line the difference at the retractor lies.
+std::string doubtOf(const RunResult& r) {
+  if (!r.difference || !r.discretisation || !r.discretisation->difference) return {};
+  const std::optional<double> error_mm = r.discretisation->difference->at_retractor_mm;
+  const double line_mm = defaults::clinicallySignificant.mm(), there_mm = r.difference->at_retractor_mm;
+  if (!error_mm || std::abs(there_mm - line_mm) > *error_mm) return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "the difference at the retractor, " << there_mm << " mm, is no further from " << line_mm
+       << " mm than the cells may shift it (" << *error_mm
+       << " mm): use smaller cells before saying on which side of that line it lies";
+  return text.str();
+}
+
 /// Memory that is free on this machine, MB; nothing where it cannot be told.
 std::optional<double> freeMemory_MB() {
   std::ifstream in("/proc/meminfo");
@@ -172,12 +186,6 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   r.warnings.insert(r.warnings.end(), r.primary.notes.begin(), r.primary.notes.end());
   if (scene.setup.model.kind == retraction::ModelKind::Meshfree)
     steps.explain("mesh-free-frames", framesInWords(scene.setup.model.meshfree, r.primary));
-  if (!options.discretisation)
-    steps.leaveOut("discretisation-error", "a study that measures errors itself does without the estimate");
-  if (r.primary.solver.converged())
-    steps.run("discretisation-error", [&](const Progress& p) {
-      r.discretisation = retraction::discretisationError(r.model, scene.setup, r.primary, p);
-    });
   if (scene.compare) {
     double factor = 1.0;
     if (detail::sameStiffness(r.model, atlasModel)) {
@@ -191,6 +199,16 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
       r.atlas = retraction::simulate(atlasModel, scene.setup, scene.outputs.probes_mm, p);
     });
   }
+
+  if (!options.discretisation)
+    steps.leaveOut("discretisation-error", "a study that measures errors itself does without the estimate");
+  if (r.primary.solver.converged())
+    steps.run("discretisation-error", [&](const Progress& p) {
+      std::optional<retraction::SecondAnswer> second;
+      if (r.atlas && r.atlas->solver.converged()) second.emplace(atlasModel, *r.atlas);
+      r.discretisation =
+          retraction::discretisationError(r.model, scene.setup, r.primary, p, second ? &*second : nullptr);
+    });
 
   if (needs.pictures && r.primary.drawable && r.atlas && !r.atlas->drawable)
     r.warnings.push_back("no picture is drawn, because of the atlas prediction: " +
@@ -218,6 +236,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   steps.run("difference", [&](const Progress&) {
     r.difference = comparison::compare(r.model, r.primary, *r.atlas, vessels.centreline_lps_mm);
   });
+  if (const std::string doubt = doubtOf(r); !doubt.empty()) r.warnings.push_back(doubt);
   if (needs.pictures) {
     steps.run("liver-surface",
               [&](const Progress&) { r.picture = detail::retractionScene(scene, inputs, cells, r, vessels); });

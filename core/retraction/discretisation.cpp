@@ -5,14 +5,17 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "retraction/body.h"
 
 namespace glisson::retraction {
 namespace {
 
+using Eigen::Vector3d;
+
 /// Centres of the body's cells, mm (LPS).
-std::vector<Eigen::Vector3d> centres(const retraction::Model& model) {
+std::vector<Vector3d> centres(const retraction::Model& model) {
   const image::Grid& g = model.youngs_kPa.grid;
-  std::vector<Eigen::Vector3d> points;
+  std::vector<Vector3d> points;
   for (int k = 0; k < g.size.z(); ++k)
     for (int j = 0; j < g.size.y(); ++j)
       for (int i = 0; i < g.size.x(); ++i)
@@ -106,58 +109,145 @@ retraction::Setup held(const retraction::Setup& setup, const retraction::Model& 
   return s;
 }
 
+namespace {
+
+/// The contact's nodes at rest, mm (LPS).
+std::vector<Vector3d> contactPoints(const Model& model, const Result& result) {
+  std::vector<Vector3d> points;
+  if (result.contactNodes.empty()) return points;
+  const Body body(model);
+  for (const int node : result.contactNodes) points.push_back(body.nodePosition_mm(node));
+  return points;
+}
+
+/// What an answer misses at points, mm: NaN where one of the grids does not reach. An error e of first order differs by
+/// e (ratio − 1) from that of larger cells, and by e / 2 from that of half cells.
+struct Missed {
+  std::vector<Vector3d> byFrames;  ///< from the voxel FEM on the same cells, where the model is mesh-free
+  std::vector<Vector3d> byCells;
+  double cell_mm = 0.0, coarse_mm = 0.0;
+};
+
+Missed missed(const Model& model, const Setup& setup, const Result& result, const std::vector<Vector3d>& points,
+              const Progress& progress) {
+  Missed m;
+  Setup voxels = held(setup, model, result);
+  const bool frames = setup.model.kind == ModelKind::Meshfree;
+  if (frames) {
+    voxels.model.kind = ModelKind::FemHex;
+    voxels.solver = {};
+  }
+  const std::vector<Vector3d> own = displacementAt(model, result, points);
+  std::vector<Vector3d> fine = own;
+  if (frames) {
+    const Result full = simulate(model, voxels, {}, progress.part(0.0, 0.8));
+    requireConverged(full);
+    fine = displacementAt(model, full, points);
+  }
+  // Tetrahedra of their own size: the same body, in cells twice as large.
+  const bool delaunay = setup.model.kind == ModelKind::FemTet && setup.model.delaunay;
+  m.cell_mm = delaunay ? setup.model.cell_mm : model.youngs_kPa.grid.spacing_mm.maxCoeff();
+  const bool split = setup.model.kind == ModelKind::FemHex && setup.kinematics == Kinematics::Linear &&
+                     model.cells <= splitLimit && !mergesExactly(model);
+  const Model other = delaunay ? model : split ? refined(model) : coarsened(model);
+  const Progress rest = progress.part(frames ? 0.8 : 0.0, 1.0);
+  double ratio = 2.0;
+  const Result rough = delaunay ? inLargerTetrahedra(other, voxels, ratio, rest) : simulate(other, voxels, {}, rest);
+  m.coarse_mm = (split ? 0.5 : ratio) * m.cell_mm;
+  requireConverged(rough);
+  const std::vector<Vector3d> coarse = displacementAt(other, rough, points);
+  const double share = split ? 2.0 : 1.0 / (ratio - 1.0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    m.byFrames.push_back(own[i] - fine[i]);
+    m.byCells.push_back(share * (fine[i] - coarse[i]));
+  }
+  return m;
+}
+
+std::vector<double> lengths(const Missed& m) {
+  std::vector<double> l;
+  for (std::size_t i = 0; i < m.byCells.size(); ++i) l.push_back(m.byFrames[i].norm() + m.byCells[i].norm());
+  return l;
+}
+
+std::vector<double> finite(const std::vector<double>& all, std::size_t begin, std::size_t end) {
+  std::vector<double> some;
+  for (std::size_t i = begin; i < end; ++i)
+    if (std::isfinite(all[i])) some.push_back(all[i]);
+  return some;
+}
+
+double meanOf(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v / static_cast<double>(values.size());
+  return sum;
+}
+
+/// What `own` and the second answer miss apart from each other; adds a sentence to the note.
+std::optional<DiscretisationError::OfDifference> ofDifference(Missed own, const Model& model, const Setup& setup,
+                                                              const SecondAnswer& second,
+                                                              const std::vector<Vector3d>& points,
+                                                              const Progress& progress, std::string& note) {
+  const std::string what = "; of the difference of the two stiffnesses ";
+  Missed other;
+  try {
+    other = second.model.youngs_kPa.values == model.youngs_kPa.values
+                ? own
+                : missed(second.model, setup, second.result, points, progress);
+  } catch (const Error& why) {
+    if (dynamic_cast<const Cancelled*>(&why)) throw;
+    note += what + "unknown: " + why.what();
+    return {};
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    own.byFrames[i] -= other.byFrames[i];
+    own.byCells[i] -= other.byCells[i];
+  }
+  const std::vector<double> all = lengths(own);
+  DiscretisationError::OfDifference d;
+  d.mean_mm = meanOf(finite(all, 0, model.cells));
+  if (const auto there = finite(all, model.cells, all.size()); !there.empty()) d.at_retractor_mm = meanOf(there);
+  std::ostringstream t;
+  t.precision(3);
+  t << what << "about " << d.mean_mm << " mm on average";
+  if (d.at_retractor_mm) t << ", " << *d.at_retractor_mm << " mm at the retractor";
+  note += t.str();
+  return d;
+}
+
+}  // namespace
+
 DiscretisationError discretisationError(const retraction::Model& model, const retraction::Setup& setup,
-                                        const retraction::Result& result, const Progress& progress) {
+                                        const retraction::Result& result, const Progress& progress,
+                                        const SecondAnswer* second) {
   DiscretisationError e;
   e.cell_mm = model.youngs_kPa.grid.spacing_mm.maxCoeff();
   e.coarse_mm = 2.0 * e.cell_mm;
+  const std::size_t cells = model.cells;
   try {
-    retraction::Setup voxels = held(setup, model, result);
-    const bool frames = setup.model.kind == retraction::ModelKind::Meshfree;
-    if (frames) {
-      voxels.model.kind = retraction::ModelKind::FemHex;
-      voxels.solver = {};
-    }
-    const std::vector<Eigen::Vector3d> points = centres(model);
-    const std::vector<Eigen::Vector3d> own = retraction::displacementAt(model, result, points);
-    std::vector<Eigen::Vector3d> fine = own;
-    if (frames) {
-      const retraction::Result full = retraction::simulate(model, voxels, {}, progress.part(0.0, 0.8));
-      requireConverged(full);
-      fine = retraction::displacementAt(model, full, points);
-    }
-    // Tetrahedra of their own size: the same body, in cells twice as large.
-    const bool delaunay = setup.model.kind == retraction::ModelKind::FemTet && setup.model.delaunay;
-    if (delaunay) e.cell_mm = setup.model.cell_mm;
-    const bool split = setup.model.kind == retraction::ModelKind::FemHex &&
-                       setup.kinematics == retraction::Kinematics::Linear && model.cells <= splitLimit &&
-                       !mergesExactly(model);
-    const retraction::Model half = delaunay ? model : split ? refined(model) : coarsened(model);
-    const Progress rest = progress.part(frames ? 0.8 : 0.0, 1.0);
-    double ratio = 2.0;
-    const retraction::Result rough =
-        delaunay ? inLargerTetrahedra(half, voxels, ratio, rest) : retraction::simulate(half, voxels, {}, rest);
-    e.coarse_mm = (split ? 0.5 : ratio) * e.cell_mm;
-    requireConverged(rough);
-    const std::vector<Eigen::Vector3d> coarse = retraction::displacementAt(half, rough, points);
-    std::vector<double> error;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      // An error e of first order differs by e (ratio − 1) from that of larger cells, and by e / 2 from that of half
-      // cells.
-      const double d = (own[i] - fine[i]).norm() + (split ? 2.0 : 1.0 / (ratio - 1.0)) * (fine[i] - coarse[i]).norm();
-      if (std::isfinite(d)) error.push_back(d);
-    }
+    std::vector<Vector3d> points = centres(model);
+    const std::vector<Vector3d> contact = contactPoints(model, result);
+    points.insert(points.end(), contact.begin(), contact.end());
+    const Missed own = missed(model, setup, result, points, progress.part(0.0, second ? 0.5 : 1.0));
+    e.cell_mm = own.cell_mm;
+    e.coarse_mm = own.coarse_mm;
+    const std::vector<double> all = lengths(own);
+    std::vector<double> error = finite(all, 0, cells);
     if (error.empty()) throw BadInput("no cell of one grid lies inside the other");
-    for (const double d : error) e.mean_mm += d / static_cast<double>(error.size());
+    e.mean_mm = meanOf(error);
     std::sort(error.begin(), error.end());
     e.max_mm = error.back();
     e.p95_mm = error[static_cast<std::size_t>(0.95 * static_cast<double>(error.size() - 1))];
+    if (const auto there = finite(all, cells, all.size()); !there.empty()) e.at_retractor_mm = meanOf(there);
     e.known = true;
     std::ostringstream t;
     t.precision(3);
     t << "discretisation error about " << e.mean_mm << " mm on average, " << e.p95_mm << " mm for 95 % of the body, "
-      << e.max_mm << " mm at most (cells of " << e.cell_mm << " mm against " << e.coarse_mm << " mm)";
+      << e.max_mm << " mm at most";
+    if (e.at_retractor_mm) t << ", " << *e.at_retractor_mm << " mm at the retractor";
+    t << " (cells of " << e.cell_mm << " mm against " << e.coarse_mm << " mm)";
     e.note = t.str();
+    if (second) e.difference = ofDifference(own, model, setup, *second, points, progress.part(0.5, 1.0), e.note);
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& why) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/progress.h"
@@ -13,8 +14,23 @@ struct DiscretisationError {
   double max_mm = 0.0;  ///< over the cells
   double p95_mm = 0.0;  ///< 95 % of the cells are below
   double mean_mm = 0.0;
+  std::optional<double> at_retractor_mm;  ///< mean over the nodes of the contact, as comparison::Difference has it
   double cell_mm = 0.0, coarse_mm = 0.0;  ///< largest cell edge of the result's grid and of the other
   std::string note;                       ///< in words, for reports
+
+  /// Of the difference of two answers, |error of the one − error of the other|: what their cells have in common
+  /// cancels.
+  struct OfDifference {
+    double mean_mm = 0.0;                   ///< over the cells
+    std::optional<double> at_retractor_mm;  ///< mean over the nodes of the contact
+  };
+  std::optional<OfDifference> difference;  ///< where there is a second answer, and its error is known
+};
+
+/// A second stiffness of the same body under the same load, with its answer.
+struct SecondAnswer {
+  const Model& model;
+  const Result& result;
 };
 
 /// The same body in cells of twice the edge: a coarse cell is filled where at least half of its eight are, with the
@@ -29,16 +45,18 @@ retraction::Setup held(const retraction::Setup& setup, const retraction::Model& 
                        const retraction::Result& result);
 
 /// Estimate from two grids, cells and twice the cells: |u_h − u_2h|, which is the error of u_h where it falls with
-/// first order, as staircase surfaces and clamped edges make it, and (2^p − 1) times the error where it falls with order
-/// p: up to three times for linear shape functions, up to seven times for quadratic ones.
-/// A body of at most 20,000 voxels that cannot be merged two by two without changing its shape is split instead:
-/// 2 |u_h − u_h/2|, the same to first order. Delaunay tetrahedra that fail their gates at twice the edge are made
-/// 1.75 or 1.5 times as large, and the difference divided by ratio − 1. Where cells are not smaller than what bends, the
-/// estimate falls short of the error, that of linear tetrahedra by far (a plate as thick as one cell: a thirtieth).
-/// For a mesh-free result the distance from the voxel FEM on its own cells is added. Costs one solve with an eighth of
-/// the cells (mesh-free: one more with all of them). Throws Cancelled; whatever else goes wrong on the coarse grid is
-/// told in the note.
+/// first order, as staircase surfaces and clamped edges make it, and (2^p − 1) times the error where it falls with
+/// order p: up to three times for linear shape functions, up to seven times for quadratic ones. A body of at most
+/// 20,000 voxels that cannot be merged two by two without changing its shape is split instead: 2 |u_h − u_h/2|, the
+/// same to first order. Delaunay tetrahedra that fail their gates at twice the edge are made 1.75 or 1.5 times as
+/// large, and the difference divided by ratio − 1. Where cells are not smaller than what bends, the estimate falls
+/// short of the error, that of linear tetrahedra by far (a plate as thick as one cell: a thirtieth). For a mesh-free
+/// result the distance from the voxel FEM on its own cells is added. Costs one solve with an eighth of the cells
+/// (mesh-free: one more with all of them), twice that with a second answer. Throws Cancelled; whatever else goes wrong
+/// on the coarse grid is told in the note. second: the same is done for it, and the error of the difference told.
+/// Contact nodes that lie off the coarse body by more than half of its cells count in no mean.
 DiscretisationError discretisationError(const retraction::Model& model, const retraction::Setup& setup,
-                                        const retraction::Result& result, const Progress& progress = {});
+                                        const retraction::Result& result, const Progress& progress = {},
+                                        const SecondAnswer* second = nullptr);
 
 }  // namespace glisson::retraction

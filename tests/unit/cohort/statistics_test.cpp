@@ -99,11 +99,13 @@ TEST(CohortRecords, TakeTheNumbersOfTheVerbs) {
       "case-001", "k", R"({"quantity":"youngs","pooled":{"n":7,"mean_kPa":6.0,"sd_kPa":0.6},"youngs_mean_kPa":6.0,
       "warnings":["w"]})",
       R"({"difference":{"mean_mm":1.5,"at_retractor_mm":5.5},"model":{"dofs":9,"volume_mL":2.5},"linear_valid":true,
-      "warnings":["w","v"]})");
+      "discretisation_error":{"max_mm":3.0,"difference":{"mean_mm":0.1,"at_retractor_mm":0.25}},"warnings":["w","v"]})");
   EXPECT_DOUBLE_EQ(r.shear_kPa, 2.0);
   EXPECT_DOUBLE_EQ(r.sd_kPa, 0.2);
   EXPECT_EQ(r.voxels, 7);
   EXPECT_DOUBLE_EQ(r.at_retractor_mm, 5.5);
+  EXPECT_DOUBLE_EQ(r.discretisation_mm, 3.0);
+  EXPECT_DOUBLE_EQ(r.difference_error_mm, 0.25);
   EXPECT_EQ(r.dofs, 9);
   EXPECT_TRUE(r.linear_valid);
   EXPECT_EQ(r.warnings, (std::vector<std::string>{"w", "v"}));
