@@ -32,7 +32,7 @@ class WholeTexts : public QStyledItemDelegate {
     constexpr int margin = 18, air = 12;  // what the style sheet and the style put around a text
     const QRect room(0, 0, std::max(tree_->columnWidth(index.column()) - margin, 40), 10000);
     const QRect text = option.fontMetrics.boundingRect(room, Qt::TextWordWrap, index.data().toString());
-    return {text.width() + margin, text.height() + air};
+    return {option.fontMetrics.horizontalAdvance(index.data().toString()) + margin, text.height() + air};
   }
 
  private:
@@ -46,6 +46,7 @@ QTreeWidget* tree(const char* name, const QStringList& columns) {
   t->setRootIsDecorated(false);
   t->setAlternatingRowColors(true);
   t->setWordWrap(true);
+  t->header()->setStretchLastSection(false);
   t->setItemDelegate(new WholeTexts(t));
   return t;
 }
@@ -64,6 +65,7 @@ KeySheet::KeySheet(Keys& keys, QWidget* parent) : QDialog(parent), keys_(keys) {
   auto* tabs = new QTabWidget;
   layout->addWidget(tabs);
   table_ = tree("keyTable", {tr("What"), tr("Key"), tr("Group")});
+  table_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
   tabs->addTab(table_, tr("Keys"));
   auto* mouse = tree("gestureTable", {tr("Mouse"), tr("Idle"), tr("Drawing"), tr("Editing, accepted")});
@@ -73,6 +75,7 @@ KeySheet::KeySheet(Keys& keys, QWidget* parent) : QDialog(parent), keys_(keys) {
                         {translated(g.gesture), translated(g.idle), translated(g.drawing), translated(g.editing)});
   tabs->addTab(mouse, tr("Mouse"));
   menus_ = tree("menuKeyTable", {tr("What"), tr("Key")});
+  menus_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
   menus_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
   tabs->addTab(menus_, tr("Steps and menus"));
   layout->addWidget(
@@ -96,7 +99,6 @@ void KeySheet::fill() {
     auto* item = new QTreeWidgetItem(table_, {nameOf(e.command), keys.join(QStringLiteral(", ")), translated(e.group)});
     item->setData(0, Qt::UserRole, static_cast<int>(e.command));
   }
-  table_->resizeColumnToContents(1);
 }
 
 // Keys of the window itself: they act wherever the mouse is, and are not changed here.

@@ -87,8 +87,6 @@ void OutlinePanel::makeReadout(QVBoxLayout* side) {
   more_ = button("moreNumbers", {}, {}, tr("Median, smallest and largest value, mean weighted by area"));
   more_->setProperty("flat", true);
   more_->setProperty("narrow", true);
-  more_->setCheckable(true);
-  more_->setChecked(QSettings().value(moreSetting, false).toBool());
   side->addWidget(more_, 0, Qt::AlignLeft);
   full_ = labelled({}, "faint");
   full_->setObjectName(QStringLiteral("fullReadout"));
@@ -97,10 +95,10 @@ void OutlinePanel::makeReadout(QVBoxLayout* side) {
     more_->setText(on ? tr("Fewer numbers") : tr("More numbers"));
     full_->setVisible(on);
   };
-  unfold(more_->isChecked());
-  connect(more_, &QPushButton::toggled, this, [unfold](bool on) {
-    unfold(on);
-    QSettings().setValue(moreSetting, on);
+  unfold(QSettings().value(moreSetting, false).toBool());
+  connect(more_, &QPushButton::clicked, this, [this, unfold] {
+    unfold(full_->isHidden());
+    QSettings().setValue(moreSetting, !full_->isHidden());
   });
   cursor_ = labelled({}, "faint");
   cursor_->setObjectName(QStringLiteral("cursorReadout"));

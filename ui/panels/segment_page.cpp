@@ -108,6 +108,7 @@ void SegmentPage::makeStrip(QHBoxLayout* strip) {
   spacing_ = new QSpinBox;
   spacing_->setObjectName(QStringLiteral("freehandSpacing"));
   spacing_->setRange(1, 100);
+  spacing_->setButtonSymbols(QAbstractSpinBox::NoButtons);  // wheel and arrow keys step it
   spacing_->setSuffix(tr(" px"));
   spacing_->setToolTip(tr("Freehand: a vertex every so many pixels of the screen"));
   spacing_->setAccessibleName(tr("Spacing of freehand vertices"));
