@@ -4,6 +4,10 @@
     <context>
         <name>glisson::panels::ComparePage</name>
         <message>
+            <source>Drawing the slice…</source>
+            <translation>Die Schicht wird gezeichnet…</translation>
+        </message>
+        <message>
             <source>Displacement arrows</source>
             <translation>Verschiebungspfeile</translation>
         </message>
@@ -251,6 +255,14 @@
     </context>
     <context>
         <name>glisson::panels::KeySheet</name>
+        <message>
+            <source>3-D views and pictures</source>
+            <translation>3-D-Ansichten und Bilder</translation>
+        </message>
+        <message>
+            <source>3-D</source>
+            <translation>3-D</translation>
+        </message>
         <message>
             <source>Keys and mouse</source>
             <translation>Tasten und Maus</translation>
@@ -667,14 +679,6 @@
         <message>
             <source>&amp;About Glisson</source>
             <translation>&amp;Über Glisson</translation>
-        </message>
-        <message>
-            <source>, %1 s left</source>
-            <translation>, noch %1 s</translation>
-        </message>
-        <message>
-            <source>, %1 min left</source>
-            <translation>, noch %1 min</translation>
         </message>
         <message>
             <source>Cancel</source>
@@ -2048,6 +2052,14 @@ Name des Bereichs:</translation>
     <context>
         <name>glisson::session::ModelPreview</name>
         <message>
+            <source>Building the model…</source>
+            <translation>Das Modell wird gebaut…</translation>
+        </message>
+        <message>
+            <source> %1 %</source>
+            <translation> %1 %</translation>
+        </message>
+        <message>
             <source>Outline the liver first (step Segment): the model appears here.</source>
             <translation>Zuerst die Leber umranden (Schritt Segmentieren): hier erscheint das Modell.</translation>
         </message>
@@ -2343,6 +2355,110 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
     </context>
     <context>
         <name>keymap</name>
+        <message>
+            <source>Turn the 3-D view</source>
+            <translation>3-D-Ansicht drehen</translation>
+        </message>
+        <message>
+            <source>left drag</source>
+            <translation>links ziehen</translation>
+        </message>
+        <message>
+            <source>arrows</source>
+            <translation>Pfeiltasten</translation>
+        </message>
+        <message>
+            <source>Move the 3-D view</source>
+            <translation>3-D-Ansicht verschieben</translation>
+        </message>
+        <message>
+            <source>middle drag, Shift+left drag</source>
+            <translation>Mitte ziehen, Umschalt+links ziehen</translation>
+        </message>
+        <message>
+            <source>Shift+arrows</source>
+            <translation>Umschalt+Pfeiltasten</translation>
+        </message>
+        <message>
+            <source>Zoom</source>
+            <translation>Vergrößern</translation>
+        </message>
+        <message>
+            <source>wheel, right drag (picture: Ctrl+wheel)</source>
+            <translation>Rad, rechts ziehen (Bild: Strg+Rad)</translation>
+        </message>
+        <message>
+            <source>+ and -</source>
+            <translation>+ und -</translation>
+        </message>
+        <message>
+            <source>Show all</source>
+            <translation>Alles zeigen</translation>
+        </message>
+        <message>
+            <source>double-click</source>
+            <translation>Doppelklick</translation>
+        </message>
+        <message>
+            <source>Home</source>
+            <translation>Pos1</translation>
+        </message>
+        <message>
+            <source>Choose a handle or a vessel</source>
+            <translation>Griff oder Gefäß wählen</translation>
+        </message>
+        <message>
+            <source>click it</source>
+            <translation>anklicken</translation>
+        </message>
+        <message>
+            <source>Space: the next</source>
+            <translation>Leertaste: der nächste</translation>
+        </message>
+        <message>
+            <source>Move the chosen handle, or the live tool</source>
+            <translation>Gewählten Griff oder das geführte Werkzeug bewegen</translation>
+        </message>
+        <message>
+            <source>drag it</source>
+            <translation>ziehen</translation>
+        </message>
+        <message>
+            <source>Ctrl+arrows: 1 mm; with Shift: 10 mm</source>
+            <translation>Strg+Pfeiltasten: 1 mm; mit Umschalt: 10 mm</translation>
+        </message>
+        <message>
+            <source>Hold the liver, after &quot;Hold here…&quot;</source>
+            <translation>Leber halten, nach „Hier halten…“</translation>
+        </message>
+        <message>
+            <source>click on the liver</source>
+            <translation>auf die Leber klicken</translation>
+        </message>
+        <message>
+            <source>Enter: in the middle of the view</source>
+            <translation>Eingabe: in der Mitte der Ansicht</translation>
+        </message>
+        <message>
+            <source>Undo what was laid</source>
+            <translation>Gelegtes zurücknehmen</translation>
+        </message>
+        <message>
+            <source>Ctrl+Z</source>
+            <translation>Strg+Z</translation>
+        </message>
+        <message>
+            <source>Slice of a picture</source>
+            <translation>Schicht eines Bildes</translation>
+        </message>
+        <message>
+            <source>wheel</source>
+            <translation>Rad</translation>
+        </message>
+        <message>
+            <source>up and down</source>
+            <translation>auf und ab</translation>
+        </message>
         <message>
             <source>Tools</source>
             <translation>Werkzeuge</translation>
@@ -2928,6 +3044,17 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>This outline counts.</source>
             <translation>Diese Kontur zählt.</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::session::Worker</name>
+        <message>
+            <source>, %1 s left</source>
+            <translation>, noch %1 s</translation>
+        </message>
+        <message>
+            <source>, %1 min left</source>
+            <translation>, noch %1 min</translation>
         </message>
     </context>
 </TS>

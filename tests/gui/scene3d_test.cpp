@@ -237,6 +237,43 @@ class Scene3D : public QObject, private glisson::test::WindowBench {
     QVERIFY(session().parameters() == proposed);
   }
 
+  void theSameIsLaidWithKeysAlone() {
+    auto* view = find<SceneView>("retractView");
+    QTRY_VERIFY_WITH_TIMEOUT(!session().preview().busy() && view->isSettled(), wait_ms);
+    const auto proposed = session().parameters();
+    view->setFocus();
+    // Turned, moved, zoomed, and all of it shown again.
+    const auto camera = view->camera();
+    QTest::keyClick(view, Qt::Key_Right);
+    QVERIFY((view->camera().fromEye - camera.fromEye).norm() > 0.01);
+    QTest::keyClick(view, Qt::Key_Left);
+    QVERIFY((view->camera().fromEye - camera.fromEye).norm() < 1e-9);
+    QTest::keyClick(view, Qt::Key_Up, Qt::ShiftModifier);
+    QVERIFY((view->camera().focus_lps - camera.focus_lps).norm() > 1.0);
+    QTest::keyClick(view, Qt::Key_Plus);
+    QVERIFY(view->camera().halfHeight_mm < camera.halfHeight_mm);
+    QTest::keyClick(view, Qt::Key_Home);
+    QVERIFY(std::abs(view->camera().halfHeight_mm / camera.halfHeight_mm - 1.0) < 1e-9);
+    // The bar's contact: ten millimetres to the right of the picture, on the surface.
+    for (std::size_t n = 0; n <= view->marks().size() && !mark(view, PlacementEditor::contact)->current; ++n)
+      QTest::keyClick(view, Qt::Key_Space);
+    QVERIFY(mark(view, PlacementEditor::contact)->current);
+    const Eigen::Vector3d from = mark(view, PlacementEditor::contact)->at_lps;
+    QTest::keyClick(view, Qt::Key_Right, Qt::ControlModifier | Qt::ShiftModifier);
+    QVERIFY(session().parameters().placement.barAt_lps.has_value());
+    const double right_mm = (*session().parameters().placement.barAt_lps - from).dot(view->camera().right());
+    QVERIFY2(std::abs(right_mm - 10.0) < 4.0, qPrintable(QString::number(right_mm)));  // to the nearest vertex
+    // A block that is held, in the middle of the view.
+    QTest::keyClick(find<QPushButton>("addHold"), Qt::Key_Space);
+    QTest::keyClick(view, Qt::Key_Return);
+    QCOMPARE(session().parameters().placement.holds.size(), std::size_t{1});
+    QVERIFY((view->pixelOf(session().parameters().placement.holds[0].centre_lps) -
+             QPointF(0.5 * view->width(), 0.5 * view->height()))
+                .manhattanLength() < 1.0);
+    for (int n = 0; n < 2; ++n) undo();
+    QVERIFY(session().parameters() == proposed);
+  }
+
   void theRunUsesWhatWasLaid() {
     auto* view = find<SceneView>("retractView");
     QTRY_VERIFY_WITH_TIMEOUT(!session().preview().busy(), wait_ms);
@@ -265,6 +302,7 @@ class Scene3D : public QObject, private glisson::test::WindowBench {
     QSignalSpy ended(&session(), &Session::workEnded);
     QSignalSpy retractDrawn(view, &SceneView::rendered);
     QSignalSpy compareDrawn(compare->sceneView(), &SceneView::rendered);
+    const bool busyBefore = glisson::test::busyMachine();
     StallMonitor all, part;
     const auto told = [&part](const char* when) {
       const auto r = part.report();
@@ -307,8 +345,7 @@ class Scene3D : public QObject, private glisson::test::WindowBench {
     QTest::mouseClick(find<QPushButton>("liveButton"), Qt::LeftButton);
     const auto r = all.report();
     qInfo("all of it: %zu looks, 99 %% within %.1f ms, the longest %.1f ms", r.looks, r.p99_ms, r.max_ms);
-    QVERIFY2(r.p99_ms <= 50.0, qPrintable(QString::number(r.p99_ms)));
-    QVERIFY2(r.max_ms <= 100.0, qPrintable(QString::number(r.max_ms)));
+    glisson::test::judge(r, busyBefore);
   }
 
   void aVesselIsChosenIn3D() {
@@ -359,8 +396,9 @@ class Scene3D : public QObject, private glisson::test::WindowBench {
     drawn.clear();
     find<QCheckBox>("magnifyChoice")->click();
     QVERIFY(drawn.count() > 0 || drawn.wait(wait_ms));
-    // Without the magnified part the picture is narrower.
-    QVERIFY(find<glisson::views::PictureView>("overlayView")->picture().width() < slice.width());
+    // Without the magnified part, below the slice or beside it, the picture is smaller.
+    const QImage plain = find<glisson::views::PictureView>("overlayView")->picture();
+    QVERIFY(1.2 * plain.width() * plain.height() < slice.width() * slice.height());
   }
 
   void cleanupTestCase() { close(); }

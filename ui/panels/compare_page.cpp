@@ -76,6 +76,9 @@ ComparePage::ComparePage(session::Session& session, QWidget* parent)
   });
   connect(overlay_, &views::PictureView::sliceWanted, this,
           [this](int step) { slice_->setValue(slice_->value() + step); });
+  connect(overlay_, &views::PictureView::resized, this, [this] {
+    if (magnify_->isChecked() && what_->currentIndex() == 0 && insetBelow() != zoomIsBelow_) drawSlice();
+  });
   connect(&session_, &session::Session::runFinished, this, &ComparePage::showResult);
   connect(&session_, &session::Session::loaded, this, &ComparePage::showResult);
   connect(&session_, &session::Session::statusChanged, this, &ComparePage::showNumbers);
@@ -190,6 +193,7 @@ void ComparePage::showResult() {
   drawBoxes();
   if (!picture) {
     overlay_->clear();
+    overlay_->setHint(tr("Run the retraction to compare MRE with the atlas."));
     sliceText_->clear();
     showNumbers();
     return;
@@ -205,14 +209,10 @@ bool ComparePage::insetBelow() const {
   return overlay_->height() > overlay_->width();
 }
 
-void ComparePage::resizeEvent(QResizeEvent* event) {
-  QWidget::resizeEvent(event);
-  if (magnify_->isChecked() && what_->currentIndex() == 0 && insetBelow() != zoomIsBelow_) drawSlice();
-}
-
 void ComparePage::drawSlice() {
   const auto picture = session_.picture();
   if (!picture) return;
+  if (!overlay_->hasPicture()) overlay_->setHint(tr("Drawing the slice…"));
   if (chosen_) sliceText_->setText(tr("slice %1 / %2").arg(slice_->value() + 1).arg(slice_->maximum() + 1));
   if (painter_.busy()) {
     wanted_ = true;

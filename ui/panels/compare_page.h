@@ -42,9 +42,6 @@ class ComparePage : public QWidget {
   void placeChosen(const Eigen::Vector3d& p_lps);   ///< in the list or in 3-D: at rest
   void exported(int files, const QString& reason);  ///< reason: empty where it went well
 
- protected:
-  void resizeEvent(QResizeEvent* event) override;
-
  private:
   QWidget* makeSide();
   void showResult();

@@ -74,6 +74,11 @@ KeySheet::KeySheet(Keys& keys, QWidget* parent) : QDialog(parent), keys_(keys) {
     new QTreeWidgetItem(mouse,
                         {translated(g.gesture), translated(g.idle), translated(g.drawing), translated(g.editing)});
   tabs->addTab(mouse, tr("Mouse"));
+  auto* scene = tree("sceneTable", {tr("3-D views and pictures"), tr("Mouse"), tr("Keys")});
+  scene->header()->setSectionResizeMode(QHeaderView::Stretch);
+  for (const tools::SceneEntry& e : tools::sceneTable())
+    new QTreeWidgetItem(scene, {translated(e.what), translated(e.mouse), translated(e.keys)});
+  tabs->addTab(scene, tr("3-D"));
   menus_ = tree("menuKeyTable", {tr("What"), tr("Key")});
   menus_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
   menus_->header()->setSectionResizeMode(0, QHeaderView::Stretch);

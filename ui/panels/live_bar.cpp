@@ -65,8 +65,9 @@ LiveBar::LiveBar(session::Session& session, views::SceneView& scene, QWidget* pa
   connect(&scene_, &views::SceneView::rendered, this, &LiveBar::pictureDrawn);
   connect(&session_, &session::Session::runFinished, this, &LiveBar::build);
   connect(&session_, &session::Session::loaded, this, &LiveBar::build);
-  connect(&worker_, &session::Worker::progressed, this, [this](double fraction) {
-    numbers_->setText(tr("Preparing to move live: %1 %").arg(qRound(100.0 * fraction)));
+  connect(&worker_, &session::Worker::progressed, this, [this](double fraction, const QString&, double secondsLeft) {
+    numbers_->setText(tr("Preparing to move live: %1 %").arg(qRound(100.0 * fraction)) +
+                      session::timeLeft(secondsLeft));
   });
 }
 

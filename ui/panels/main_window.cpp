@@ -35,12 +35,6 @@ using session::Step;
 
 namespace {
 
-QString timeText(double seconds) {
-  if (seconds < 0.0) return {};
-  if (seconds < 60.0) return MainWindow::tr(", %1 s left").arg(std::ceil(seconds), 0, 'f', 0);
-  return MainWindow::tr(", %1 min left").arg(std::ceil(seconds / 60.0), 0, 'f', 0);
-}
-
 const QString geometryKey = QStringLiteral("geometry");
 
 }  // namespace
@@ -178,7 +172,7 @@ void MainWindow::connectSession() {
 
 void MainWindow::showProgress(double fraction, const QString& what, double secondsLeft) {
   progress_->setValue(static_cast<int>(std::lround(fraction * 1000.0)));
-  if (cancel_->isEnabled()) progressText_->setText(what + timeText(secondsLeft));
+  if (cancel_->isEnabled()) progressText_->setText(what + session::timeLeft(secondsLeft));
 }
 
 void MainWindow::updateStatus() {

@@ -61,10 +61,11 @@ MethodChart::MethodChart(session::Session& session, QWidget* parent)
     worker_.cancel();
     cancel_->setEnabled(false);
   });
-  connect(&worker_, &session::Worker::progressed, this, [this](double fraction, const QString& what, double) {
-    progress_->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
-    progress_->setFormat(what);
-  });
+  connect(&worker_, &session::Worker::progressed, this,
+          [this](double fraction, const QString& what, double secondsLeft) {
+            progress_->setValue(static_cast<int>(std::lround(1000.0 * fraction)));
+            progress_->setFormat(what + session::timeLeft(secondsLeft));
+          });
   connect(&session_, &session::Session::runFinished, this, &MethodChart::forget);
   connect(&session_, &session::Session::loaded, this, &MethodChart::forget);
   forget();

@@ -60,6 +60,8 @@ ModelStage::ModelStage(session::Session& session, QWidget* parent)
   words_->setContentsMargins(14, 0, 14, 8);
   column->addWidget(words_);
   connect(&session_.preview(), &session::ModelPreview::changed, this, &ModelStage::show_);
+  connect(&session_.preview(), &session::ModelPreview::progressed, this,
+          [this] { scene_->setHint(session_.preview().words()); });
   const auto again = [this] {
     if (isVisible()) session_.preview().want();
   };
@@ -91,7 +93,7 @@ void ModelStage::takeParts() {
 void ModelStage::show_() {
   const session::ModelPreview& preview = session_.preview();
   const auto model = preview.picture();
-  scene_->setHint(!preview.problem().isEmpty() ? preview.problem() : tr("Building the model…"));
+  scene_->setHint(preview.words());
   scene_->setModel(model);
   if (!model) {
     words_->clear();

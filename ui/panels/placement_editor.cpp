@@ -62,6 +62,9 @@ PlacementEditor::PlacementEditor(session::Session& session, views::SceneView& sc
   connect(&session_.preview(), &session::ModelPreview::changed, this, [this] {
     if (active_) show();
   });
+  connect(&session_.preview(), &session::ModelPreview::progressed, this, [this] {
+    if (active_) scene_.setHint(session_.preview().words());
+  });
   connect(&session_, &session::Session::loaded, this, [this] { slicePlaced_ = false; });
   connect(&session_, &session::Session::parametersChanged, this, [this] {
     if (active_ && isVisible()) session_.preview().want(), refresh();
@@ -121,7 +124,7 @@ void PlacementEditor::setActive(bool active) {
 void PlacementEditor::show() {
   const session::ModelPreview& preview = session_.preview();
   const auto model = preview.picture();
-  scene_.setHint(!preview.problem().isEmpty() ? preview.problem() : tr("Building the model…"));
+  scene_.setHint(preview.words());
   if (!model)
     scene_.setModel(nullptr);
   else if (!moving_)

@@ -75,6 +75,14 @@ ModelPreview::ModelPreview(Session& session) : QObject(&session), session_(sessi
   delay_.setSingleShot(true);
   delay_.setInterval(delay_ms);
   connect(&delay_, &QTimer::timeout, this, &ModelPreview::start);
+  connect(&worker_, &Worker::progressed, this, [this](double fraction, const QString&, double secondsLeft) {
+    progress_ = tr(" %1 %").arg(qRound(100.0 * fraction)) + timeLeft(secondsLeft);
+    emit progressed();
+  });
+}
+
+QString ModelPreview::words() const {
+  return problem_.isEmpty() ? tr("Building the model…") + progress_ : problem_;
 }
 
 ModelPreview::~ModelPreview() = default;
@@ -203,6 +211,11 @@ void ModelPreview::start() {
                                      : tr("Open a patient first: the model appears here.");
     emit changed();
     return;
+  }
+  progress_.clear();
+  if (!problem_.isEmpty()) {  // it may be mended: nobody should read it until that is known
+    problem_.clear();
+    emit changed();
   }
   const std::filesystem::path folder = (session_.runFolder() + QStringLiteral("/preview")).toStdString();
   struct Made {

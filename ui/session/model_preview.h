@@ -24,10 +24,12 @@ class ModelPreview : public QObject {
   void want();
   std::shared_ptr<const tools::ModelPicture> picture() const { return picture_; }
   const QString& problem() const { return problem_; }  ///< why there is none
+  QString words() const;                               ///< the same, or how far it is
   bool busy() const { return worker_.busy() || delay_.isActive(); }
 
  signals:
   void changed();
+  void progressed();
 
  private:
   struct Body;
@@ -37,7 +39,7 @@ class ModelPreview : public QObject {
   QTimer delay_;  ///< gestures follow each other quickly
   std::shared_ptr<const Body> body_;
   std::shared_ptr<const tools::ModelPicture> picture_;
-  QString problem_;
+  QString problem_, progress_;
   std::uint64_t made_ = 0;  ///< revision of the session that the picture shows
 };
 

@@ -2,6 +2,7 @@
 
 #include <QMetaObject>
 #include <QTimer>
+#include <cmath>
 
 #include "base/error.h"
 
@@ -81,9 +82,15 @@ void Worker::forward() {
   }
   if (!busy_) return;
   const double elapsed = static_cast<double>(clock_.elapsed()) * 1e-3;
-  // A forecast from less than a second or two percent of the work would only jump about.
-  const double left = elapsed > 1.0 && fraction > 0.02 ? elapsed * (1.0 - fraction) / fraction : -1.0;
+  // A forecast from less than a second or a tenth of the work would only jump about.
+  const double left = elapsed > 1.0 && fraction > 0.1 ? elapsed * (1.0 - fraction) / fraction : -1.0;
   emit progressed(fraction, what, left);
+}
+
+QString timeLeft(double seconds) {
+  if (seconds < 0.0) return {};
+  if (seconds < 60.0) return Worker::tr(", %1 s left").arg(std::ceil(seconds), 0, 'f', 0);
+  return Worker::tr(", %1 min left").arg(std::ceil(seconds / 60.0), 0, 'f', 0);
 }
 
 QString reasonOf(std::exception_ptr failure) {

@@ -46,6 +46,9 @@ class Worker : public QObject {
   bool posted_ = false;
 };
 
+/// ", 12 s left" to stand behind what is done; empty where it is not known.
+QString timeLeft(double seconds);
+
 /// What went wrong, in the words of the exception. Empty for Cancelled and for no failure.
 QString reasonOf(std::exception_ptr failure);
 bool wasCancelled(std::exception_ptr failure);

@@ -94,6 +94,18 @@ constexpr std::array<GestureEntry, 10> gestureRows = {{
     {"Shift+click", "inside an outline: start a hole", "steps of 45°", "add to or take from the selection"},
 }};
 
+constexpr std::array<SceneEntry, 9> sceneRows = {{
+    {"Turn the 3-D view", "left drag", "arrows"},
+    {"Move the 3-D view", "middle drag, Shift+left drag", "Shift+arrows"},
+    {"Zoom", "wheel, right drag (picture: Ctrl+wheel)", "+ and -"},
+    {"Show all", "double-click", "Home"},
+    {"Choose a handle or a vessel", "click it", "Space: the next"},
+    {"Move the chosen handle, or the live tool", "drag it", "Ctrl+arrows: 1 mm; with Shift: 10 mm"},
+    {"Hold the liver, after \"Hold here…\"", "click on the liver", "Enter: in the middle of the view"},
+    {"Undo what was laid", "", "Ctrl+Z"},
+    {"Slice of a picture", "wheel", "up and down"},
+}};
+
 }  // namespace
 
 std::span<const KeyEntry> keyTable() {
@@ -112,6 +124,10 @@ std::optional<Command> commandNamed(std::string_view id) {
 
 std::span<const GestureEntry> gestureTable() {
   return gestureRows;
+}
+
+std::span<const SceneEntry> sceneTable() {
+  return sceneRows;
 }
 
 }  // namespace glisson::tools

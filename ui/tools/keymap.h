@@ -95,4 +95,10 @@ struct GestureEntry {
 };
 std::span<const GestureEntry> gestureTable();
 
+/// What mouse and keys do over a 3-D view, and over a finished picture.
+struct SceneEntry {
+  const char *what, *mouse, *keys;
+};
+std::span<const SceneEntry> sceneTable();
+
 }  // namespace glisson::tools

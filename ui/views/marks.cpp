@@ -25,10 +25,30 @@ void paintLine(QPainter& painter, const Mark& mark, const QPointF& from, const Q
   }
 }
 
+/// Beside its mark, where it covers no other mark that the mouse may want and lies in the view.
+QRectF labelFor(const QPainter& painter, const Mark& mark, const QPointF& at, double off,
+                const std::vector<QPointF>& places) {
+  QRectF label = QRectF(painter.fontMetrics().boundingRect(mark.text)).adjusted(-5, -2, 5, 2);
+  const QRectF view(painter.window());
+  label.moveCenter(at);
+  const double aside = 0.5 * label.width() + off, above = 0.5 * label.height() + off;
+  const QRectF first = label.translated(aside, 0.0);
+  for (const QPointF& by : {QPointF(aside, 0.0), {-aside, 0.0}, {0.0, -above}, {0.0, above}}) {
+    const QRectF there = label.translated(by), wide = there.adjusted(-hit_px, -hit_px, hit_px, hit_px);
+    if (!view.contains(there)) continue;
+    if (std::none_of(places.begin(), places.end(), [&](const QPointF& p) { return p != at && wide.contains(p); }))
+      return there;
+  }
+  return first;
+}
+
 }  // namespace
 
 void paintMarks(QPainter& painter, const std::vector<Mark>& marks, const Projection& seenAt) {
   painter.setRenderHint(QPainter::Antialiasing);
+  std::vector<QPointF> places;
+  for (const Mark& mark : marks)
+    if (const auto at = seenAt(mark.at_lps)) places.push_back(*at);
   for (const Mark& mark : marks) {
     const auto at = seenAt(mark.at_lps);
     if (!at) continue;
@@ -61,10 +81,7 @@ void paintMarks(QPainter& painter, const std::vector<Mark>& marks, const Project
     painter.setBrush(mark.shape == Mark::Shape::Ring ? QBrush(Qt::NoBrush) : QBrush(mark.colour));
     painter.drawPath(shape);
     if (mark.text.isEmpty()) continue;
-    const QRectF room = QRectF(painter.fontMetrics().boundingRect(mark.text)).adjusted(-5, -2, 5, 2);
-    QRectF label = room.translated(*at + QPointF(r + 6.0, 0.0) - QPointF(room.left(), room.center().y()));
-    const QRectF view = painter.viewport().isValid() ? QRectF(painter.window()) : QRectF();
-    if (view.isValid() && label.right() > view.right()) label.moveRight(at->x() - r - 6.0);
+    const QRectF label = labelFor(painter, mark, *at, r + 6.0, places);
     painter.setPen(Qt::NoPen);
     painter.setBrush(QColor(0, 0, 0, 165));
     painter.drawRoundedRect(label, 3, 3);

@@ -1,5 +1,6 @@
 #include "views/picture_view.h"
 
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
@@ -10,6 +11,7 @@ namespace glisson::views {
 
 PictureView::PictureView(QWidget* parent) : QWidget(parent) {
   setMinimumSize(240, 240);
+  setFocusPolicy(Qt::StrongFocus);
 }
 
 void PictureView::setPicture(const render::Picture& picture) {
@@ -69,6 +71,7 @@ void PictureView::paintEvent(QPaintEvent*) {
 
 void PictureView::resizeEvent(QResizeEvent*) {
   if (fitted_) fit();
+  emit resized();
 }
 
 void PictureView::wheelEvent(QWheelEvent* event) {
@@ -79,6 +82,30 @@ void PictureView::wheelEvent(QWheelEvent* event) {
   else
     emit sliceWanted(up ? 1 : -1);
   event->accept();
+}
+
+void PictureView::keyPressEvent(QKeyEvent* event) {
+  const QPointF middle(0.5 * width(), 0.5 * height());
+  switch (image_.isNull() ? Qt::Key_unknown : static_cast<Qt::Key>(event->key())) {
+    case Qt::Key_Up:
+      emit sliceWanted(1);
+      return;
+    case Qt::Key_Down:
+      emit sliceWanted(-1);
+      return;
+    case Qt::Key_Plus:
+    case Qt::Key_Equal:
+      zoomAt(middle, 1.15);
+      return;
+    case Qt::Key_Minus:
+      zoomAt(middle, 1.0 / 1.15);
+      return;
+    case Qt::Key_Home:
+      fit();
+      return;
+    default:
+      QWidget::keyPressEvent(event);
+  }
 }
 
 void PictureView::mousePressEvent(QMouseEvent* event) {

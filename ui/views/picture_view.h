@@ -8,7 +8,8 @@
 namespace glisson::views {
 
 /// A finished picture, fitted to the widget; wheel with Ctrl, or right drag, zooms; middle or left drag moves;
-/// double-click fits. The plain wheel is passed on as a request for another slice.
+/// double-click fits. The plain wheel is passed on as a request for another slice. Keys: up and down ask for another
+/// slice, + and - zoom, Home fits.
 class PictureView : public QWidget {
   Q_OBJECT
  public:
@@ -23,12 +24,14 @@ class PictureView : public QWidget {
   void fit();
 
  signals:
+  void resized();
   void sliceWanted(int step);  ///< +1 or −1
 
  protected:
   void paintEvent(QPaintEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;

@@ -27,8 +27,10 @@ struct ModelParts {
 };
 
 /// A 3-D view: the overlay of one retraction, the same drawing as the exported picture, or the model before a run.
-/// Left drag turns, middle drag or Shift+left drag moves, right drag or wheel zooms, a double click shows all. The
-/// pictures are made by a painter's own thread; this widget shows the latest and draws marks over it.
+/// Left drag turns, middle drag or Shift+left drag moves, right drag or wheel zooms, a double click shows all. Keys:
+/// arrows turn, with Shift they move; + and - zoom, Home shows all; Space chooses the next mark, Ctrl+arrows move it
+/// (or the live tool) by 1 mm, with Shift by 10 mm; Enter places in the middle. The pictures are made by a painter's
+/// own thread; this widget shows the latest and draws marks over it.
 class SceneView : public QWidget {
   Q_OBJECT
  public:
@@ -91,6 +93,7 @@ class SceneView : public QWidget {
   void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
 
  private:
   enum class Drag { None, Turn, Pan, Zoom, Tool, Mark };
@@ -103,6 +106,9 @@ class SceneView : public QWidget {
   void compose(bool keepCamera);
   void composeModel();
   void fitModel();
+  void showAll();
+  void chooseNext();
+  void moveChosen(const Eigen::Vector2d& by_mm);
   void draw(bool hurried);
   void moved();  ///< the camera
   void take(const ScenePainter::Frame& frame);

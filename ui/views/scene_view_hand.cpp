@@ -105,7 +105,10 @@ void SceneView::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void SceneView::mouseDoubleClickEvent(QMouseEvent* event) {
-  if (event->button() != Qt::LeftButton || !hasPicture() || placing_) return;
+  if (event->button() == Qt::LeftButton && hasPicture() && !placing_) showAll();
+}
+
+void SceneView::showAll() {
   if (scene_) {
     compose(false);
     return;
@@ -141,6 +144,16 @@ void SceneView::paintEvent(QPaintEvent*) {
     const Eigen::Vector2d px = shownCamera_.toPixel(p, size_px());
     return std::optional(QPointF(px.x(), px.y()));
   });
+  if (hasFocus()) {
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen(QColor(90, 160, 255, 150), 1.0));
+    painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
+    if (placing_) {  // where Enter places
+      const QPointF middle(0.5 * width(), 0.5 * height());
+      painter.drawLine(middle - QPointF(12, 0), middle + QPointF(12, 0));
+      painter.drawLine(middle - QPointF(0, 12), middle + QPointF(0, 12));
+    }
+  }
   if (caption_.isEmpty()) return;
   const QRectF room = QRectF(rect()).adjusted(14, 10, -14, -10);
   painter.setPen(QColor(198, 205, 214));
