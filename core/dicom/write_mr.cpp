@@ -121,7 +121,6 @@ void plane(MrWriter& w, const MrSeriesHeader& h, const image::Grid& g, int k) {
   const Eigen::Vector3d p = g.indexToLps({0, 0, static_cast<double>(k)});
   const Eigen::Vector3d row = g.direction.col(0);
   const Eigen::Vector3d column = g.direction.col(1);
-  w.number(DCM_InstanceNumber, k + 1);
   w.decimals(DCM_ImagePositionPatient, {p.x(), p.y(), p.z()});
   w.decimals(DCM_ImageOrientationPatient, {row.x(), row.y(), row.z(), column.x(), column.y(), column.z()});
   w.decimals(DCM_PixelSpacing, {g.spacing_mm.y(), g.spacing_mm.x()});  // row spacing first
@@ -139,7 +138,8 @@ void checkHeader(const MrSeriesHeader& h, const image::Grid& g, std::size_t valu
       throw BadArgument("MR series: study, series and frame of reference need a UID of 1 to 64 characters");
 }
 
-WrittenSeries writeSlices(const std::filesystem::path& folder, const MrSeriesHeader& h, const image::Grid& g,
+/// The slices of `steps` volumes, one after the other; pixels: of image n = step · slices + k.
+WrittenSeries writeSlices(const std::filesystem::path& folder, const MrSeriesHeader& h, const image::Grid& g, int steps,
                           const Kind& kind, const std::function<void(DcmDataset&, int)>& pixels) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
@@ -147,11 +147,11 @@ WrittenSeries writeSlices(const std::filesystem::path& folder, const MrSeriesHea
     throw BadInput("cannot make the folder for a DICOM series: " + failed.message() +
                    "; choose a folder that can be written to");
   WrittenSeries written;
-  for (int k = 0; k < g.size.z(); ++k) {
+  for (int n = 0; n < steps * g.size.z(); ++n) {
     DcmFileFormat file;
     DcmDataset& data = *file.getDataset();
     MrWriter w(data);
-    const std::string uid = uidFrom(h.seriesUid + "/" + std::to_string(k));
+    const std::string uid = uidFrom(h.seriesUid + "/" + std::to_string(n));
     w.text(DCM_ImageType, joined(h.imageType));
     w.text(DCM_SOPClassUID, kind.sopClass);
     w.text(DCM_SOPInstanceUID, uid);
@@ -163,17 +163,22 @@ WrittenSeries writeSlices(const std::filesystem::path& folder, const MrSeriesHea
     }
     acquisition(w, h);
     if (!h.derivation.empty()) w.text(DCM_DerivationDescription, h.derivation);
-    plane(w, h, g, k);
+    w.number(DCM_InstanceNumber, n + 1);
+    plane(w, h, g, n % g.size.z());
+    if (steps > 1) {
+      w.number(DCM_TemporalPositionIdentifier, n / g.size.z() + 1);
+      w.number(DCM_NumberOfTemporalPositions, steps);
+    }
     w.word(DCM_Rows, static_cast<std::uint16_t>(g.size.y()));
     w.word(DCM_Columns, static_cast<std::uint16_t>(g.size.x()));
     if (!kind.colour) {
       w.decimal(DCM_WindowCenter, h.windowCenter);
       w.decimal(DCM_WindowWidth, h.windowWidth);
     }
-    pixels(data, k);
+    pixels(data, n);
 
     char name[32];
-    std::snprintf(name, sizeof name, "IM-%04d.dcm", k + 1);
+    std::snprintf(name, sizeof name, "IM-%04d.dcm", n + 1);
     const std::filesystem::path path = folder / name;
     const OFCondition status = file.saveFile(path.string().c_str(), EXS_LittleEndianExplicit);
     if (status.bad())
@@ -215,10 +220,19 @@ std::string decimalString(double value) {
 
 WrittenSeries writeMrSeries(const std::filesystem::path& folder, const MrSeriesHeader& header,
                             const image::Volume<std::int16_t>& volume) {
-  const image::Grid& g = volume.grid;
-  checkHeader(header, g, volume.values.size());
+  return writeMrSeries(folder, header, std::vector<image::Volume<std::int16_t>>{volume});
+}
+
+WrittenSeries writeMrSeries(const std::filesystem::path& folder, const MrSeriesHeader& header,
+                            const std::vector<image::Volume<std::int16_t>>& steps) {
+  if (steps.empty()) throw BadArgument("MR series: there is no volume to write");
+  const image::Grid& g = steps.front().grid;
+  for (const auto& step : steps) {
+    if (!step.grid.sameGeometry(g)) throw BadArgument("MR series: its time steps lie on different grids");
+    checkHeader(header, g, step.values.size());
+  }
   const std::size_t slice = static_cast<std::size_t>(g.size.x()) * static_cast<std::size_t>(g.size.y());
-  return writeSlices(folder, header, g, {UID_MRImageStorage, false}, [&](DcmDataset& data, int k) {
+  const auto pixels = [&](DcmDataset& data, int n) {
     MrWriter w(data);
     w.word(DCM_SamplesPerPixel, 1);
     w.text(DCM_PhotometricInterpretation, "MONOCHROME2");
@@ -226,11 +240,13 @@ WrittenSeries writeMrSeries(const std::filesystem::path& folder, const MrSeriesH
     w.word(DCM_BitsStored, 16);
     w.word(DCM_HighBit, 15);
     w.word(DCM_PixelRepresentation, 1);
-    const auto* first = volume.values.data() + static_cast<std::size_t>(k) * slice;
+    const auto& volume = steps[static_cast<std::size_t>(n / g.size.z())];
+    const auto* first = volume.values.data() + static_cast<std::size_t>(n % g.size.z()) * slice;
     const std::vector<std::uint16_t> words(first, first + slice);  // two's complement, as PixelRepresentation 1 says
     MrWriter::check(data.putAndInsertUint16Array(DCM_PixelData, words.data(), static_cast<unsigned long>(words.size())),
                     DCM_PixelData);
-  });
+  };
+  return writeSlices(folder, header, g, static_cast<int>(steps.size()), {UID_MRImageStorage, false}, pixels);
 }
 
 WrittenSeries writeMrColourSeries(const std::filesystem::path& folder, const MrSeriesHeader& header,
@@ -238,7 +254,7 @@ WrittenSeries writeMrColourSeries(const std::filesystem::path& folder, const MrS
   const image::Grid& g = volume.grid;
   checkHeader(header, g, volume.values.size());
   const std::size_t slice = static_cast<std::size_t>(g.size.x()) * static_cast<std::size_t>(g.size.y());
-  return writeSlices(folder, header, g, {UID_SecondaryCaptureImageStorage, true}, [&](DcmDataset& data, int k) {
+  return writeSlices(folder, header, g, 1, {UID_SecondaryCaptureImageStorage, true}, [&](DcmDataset& data, int k) {
     MrWriter w(data);
     w.word(DCM_SamplesPerPixel, 3);
     w.text(DCM_PhotometricInterpretation, "RGB");

@@ -60,6 +60,12 @@ struct WrittenSeries {
 WrittenSeries writeMrSeries(const std::filesystem::path& folder, const MrSeriesHeader& header,
                             const image::Volume<std::int16_t>& volume);
 
+/// The same for volumes of one grid that follow each other in time, in one series: slice k of step t is file and
+/// instance t · slices + k + 1, and TemporalPositionIdentifier (of NumberOfTemporalPositions) t + 1 tells the steps
+/// apart. Throws BadArgument where there is no step or their grids differ.
+WrittenSeries writeMrSeries(const std::filesystem::path& folder, const MrSeriesHeader& header,
+                            const std::vector<image::Volume<std::int16_t>>& steps);
+
 /// The same for a colour picture of a map: RGB, 3 × 8 bit, MR-modality Secondary Capture with the geometry kept.
 WrittenSeries writeMrColourSeries(const std::filesystem::path& folder, const MrSeriesHeader& header,
                                   const image::Volume<std::array<std::uint8_t, 3>>& volume);

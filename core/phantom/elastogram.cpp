@@ -61,7 +61,7 @@ void fillElastogram(const ElastogramInput& in, PhantomPatient& out) {
   out.cleanShear_kPa = image::ScalarVolume(grid);
   out.stiffness_Pa = Int16Volume(grid);
   out.confidence = Int16Volume(grid);
-  out.wave = Int16Volume(grid);
+  out.wave.assign(PhantomPatient::waveSteps, Int16Volume(grid));
   out.colour = RgbVolume(grid);
 
   auto position = [&](std::size_t v) {
@@ -126,6 +126,7 @@ void fillElastogram(const ElastogramInput& in, PhantomPatient& out) {
   const double gain = PhantomPatient::waveWindowWidth / 2.0 / std::numbers::pi;
   parallelChunks(n, slice, [&](std::size_t begin, std::size_t end) {
     Random r = derived(in.seed, 200 + begin / slice);
+    Random ofLaterSteps = derived(in.seed, 400 + begin / slice);
     const double z = position(begin).z();
     // Shear modulus seen by a wave on its way: liver as mapped, elsewhere soft tissue.
     auto mu_kPa = [&](const Point& p) {
@@ -152,9 +153,13 @@ void fillElastogram(const ElastogramInput& in, PhantomPatient& out) {
       const double noiseUnit = r.normal();
       const auto [a1, phase1] = arrival(Point(driver.x(), driver.y(), z), p);
       const auto [a2, phase2] = arrival(Point(reflector.x(), reflector.y(), z), p);
-      const double u_rad =
-          2.6 * a1 * std::cos(phase1 - startPhase) + 0.7 * a2 * std::cos(phase2 - startPhase + 1.0) + 0.05 * r.normal();
-      out.wave.values[v] = static_cast<std::int16_t>(std::lround(std::clamp(u_rad, -3.1, 3.1) * gain));
+      for (std::size_t t = 0; t < out.wave.size(); ++t) {
+        // The wave runs away from where it arises: later is further back along its way.
+        const double now = startPhase + 2.0 * std::numbers::pi * static_cast<double>(t) / PhantomPatient::waveSteps;
+        const double u_rad = 2.6 * a1 * std::cos(phase1 - now) + 0.7 * a2 * std::cos(phase2 - now + 1.0) +
+                             0.05 * (t == 0 ? r : ofLaterSteps).normal();
+        out.wave[t].values[v] = static_cast<std::int16_t>(std::lround(std::clamp(u_rad, -3.1, 3.1) * gain));
+      }
 
       double kPa = 0.0;
       const double junk = noise(p, 11.0, pattern.seed + 7);

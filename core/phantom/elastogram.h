@@ -21,7 +21,8 @@ struct ElastogramInput {
 /// - Confidence: low within 4 mm of the capsule, at veins wider than 5 mm, in a deep region the waves hardly reach, and
 ///   outside the liver; there the stiffness is wrong, as an inversion is there.
 /// - Wave: 60 Hz shear waves from a driver on the right anterior wall; phase = 2π f ∫ ds / c with c = sqrt(µ / ρ)
-///   along straight rays, exponential attenuation, one weaker reflected wave.
+///   along straight rays, exponential attenuation, one weaker reflected wave; at 4 equal parts of the period, each with
+///   its own noise.
 void fillElastogram(const ElastogramInput& input, PhantomPatient& patient);
 
 }  // namespace glisson::phantom

@@ -55,12 +55,13 @@ struct PhantomPatient {
   image::ScalarVolume cleanShear_kPa;  ///< on the MRE grid, without noise; 0 outside the liver
   Int16Volume mri;                     ///< contrast-enhanced, arbitrary units
   Int16Volume magnitude;               ///< of the MRE acquisition, arbitrary units
-  Int16Volume wave;                    ///< radians = value · π / (waveWindowWidth / 2)
-  Int16Volume stiffness_Pa;            ///< shear modulus with noise; nonsense where the confidence is low
-  Int16Volume confidence;              ///< 0 … 999
-  RgbVolume colour;                    ///< the stiffness map in colours, 0–8 kPa
-  roi::ContourStack contours;          ///< the liver as a hand would draw it, slice by slice; no UIDs yet
+  std::vector<Int16Volume> wave;  ///< at waveSteps equal parts of a period; radians = value · π / (waveWindowWidth / 2)
+  Int16Volume stiffness_Pa;       ///< shear modulus with noise; nonsense where the confidence is low
+  Int16Volume confidence;         ///< 0 … 999
+  RgbVolume colour;               ///< the stiffness map in colours, 0–8 kPa
+  roi::ContourStack contours;     ///< the liver as a hand would draw it, slice by slice; no UIDs yet
   static constexpr double waveWindowWidth = 6283.0;
+  static constexpr int waveSteps = 4;
 };
 
 /// Makes one patient; options.number and options.shear_kPa apply, cases and paperCohort do not.

@@ -28,6 +28,10 @@ class Journey(unittest.TestCase):
         self.assertLessEqual({"anatomical", "magnitude", "wave", "stiffness", "confidence"}, roles)
         for s in series:
             self.assertTrue(s["role_reason"])
+        waves = sorted((s for s in series if s["role"] == "wave"), key=lambda s: s["time_step"])
+        self.assertEqual([s["time_step"] for s in waves], [0, 1, 2, 3])
+        self.assertEqual(len({s["uid"].split("#")[0] for s in waves}), 1, "one series")
+        self.assertEqual(len({(s["slices"], *s["origin_lps_mm"], *s["spacing_mm"]) for s in waves}), 1, "one grid")
 
     def test_measure_recovers_the_truth(self):
         r = cli_json("measure", "--mre", self.patient / "mre", "--roi", self.patient / "rtstruct.dcm")
@@ -45,6 +49,19 @@ class Journey(unittest.TestCase):
         d = r["difference"]
         self.assertGreater(d["max_mm"], d["mean_mm"])
         self.assertGreater(d["vessels"]["landmarks"], 100)
+        # What the cells may shift: both answers are shifted alike, so the difference is shifted less.
+        error = r["discretisation_error"]
+        self.assertTrue(error["known"], error["note"])
+        self.assertGreater(error["difference"]["mean_mm"], 0)
+        self.assertLess(error["difference"]["mean_mm"], error["mean_mm"])
+        self.assertGreater(error["difference"]["at_retractor_mm"], 0)
+        self.assertLess(error["difference"]["at_retractor_mm"], error["max_mm"])
+        self.assertGreater(error["at_retractor_mm"], 0)
+        open_ = abs(d["at_retractor_mm"] - 5) <= error["difference"]["at_retractor_mm"]
+        self.assertEqual(any("on which side of that line" in w for w in r["warnings"]), open_)
+        page = (out / "report.html").read_text()
+        self.assertIn("of the difference MRE against atlas", page)
+        self.assertIn("At the retractor, error from the size of the cells", page)
         self.assertAlmostEqual(r["load_N"][1], -r["model"]["mass_kg"] * 9.81, delta=1e-6)
         for name in r["files"]:
             self.assertTrue((out / name).exists(), name)

@@ -118,16 +118,40 @@ TEST(Elastogram, WaveIsShorterInASofterLiver) {
     const PhantomPatient p = makePhantom(3, o);
     double count = 0.0;
     double voxels = 0.0;
-    for (std::size_t v = 0; v + 256 < p.wave.values.size(); ++v)
+    const std::vector<std::int16_t>& wave = p.wave.front().values;
+    for (std::size_t v = 0; v + 256 < wave.size(); ++v)
       if (p.liverMre.values[v] && p.liverMre.values[v + 256] && p.confidence.values[v] >= 950) {
         voxels += 1.0;
-        count += (p.wave.values[v] < 0) != (p.wave.values[v + 256] < 0) ? 1.0 : 0.0;
+        count += (wave[v] < 0) != (wave[v + 256] < 0) ? 1.0 : 0.0;
       }
     return count / voxels;
   };
   const double ratio = crossings(2.0) / crossings(6.0);
   EXPECT_GT(ratio, 1.25);  // sqrt(3) = 1.73 for a lone plane wave without noise
   EXPECT_LT(ratio, 2.1);
+}
+
+TEST(Elastogram, WaveStepsAreEqualPartsOfOnePeriod) {
+  const PhantomPatient& p = test::sharedPatient();
+  ASSERT_EQ(p.wave.size(), 4U);
+  // Half a period apart a harmonic wave is its own opposite; a quarter apart it is neither that nor the same. Noise of
+  // 0.05 rad in each step leaves 0.05 √2 of their sum.
+  const double rad = std::numbers::pi / (PhantomPatient::waveWindowWidth / 2.0);
+  const auto rms = [&](std::size_t s, std::size_t t, double sign) {
+    double sum = 0.0, n = 0.0;
+    for (std::size_t v = 0; v < p.liverMre.values.size(); ++v) {
+      if (!p.liverMre.values[v]) continue;
+      const double x = rad * p.wave[s].values[v], y = rad * p.wave[t].values[v];
+      if (std::max(std::abs(x), std::abs(y)) > 3.0) continue;  // cut off
+      sum += (x + sign * y) * (x + sign * y);
+      n += 1.0;
+    }
+    return std::sqrt(sum / n);
+  };
+  EXPECT_NEAR(rms(0, 2, 1.0), 0.05 * std::sqrt(2.0), 0.002);
+  EXPECT_NEAR(rms(1, 3, 1.0), 0.05 * std::sqrt(2.0), 0.002);
+  EXPECT_GT(rms(0, 1, 1.0), 0.3);
+  EXPECT_GT(rms(0, 1, -1.0), 0.3);
 }
 
 }  // namespace

@@ -44,7 +44,10 @@ for name, files in all_series.items():
     frames.update(f.FrameOfReferenceUID for f in files)
     series_uids.update(f.SeriesInstanceUID for f in files)
     sop_uids.update(f.SOPInstanceUID for f in files)
-    z = numpy.array([float(f.ImagePositionPatient[2]) for f in files])
+    steps = len({f.get("TemporalPositionIdentifier") for f in files})
+    check(steps == (4 if name == "mre/wave" else 1), f"{name}: {steps} time steps")
+    z = numpy.array([float(f.ImagePositionPatient[2]) for f in files])[::steps]
+    check(len(z) * steps == len(files), f"{name}: every step has every slice")
     spacing = float(files[0].SpacingBetweenSlices)
     check(numpy.allclose(numpy.diff(z), spacing, atol=1e-6), f"{name}: uneven slices")
     for f in files:
@@ -66,6 +69,7 @@ check(stiffness[0][0x0019, 0x0010].value == "GEMS_ACQU_01", "private creator")
 check(str(stiffness[0][0x0019, 0x109C].value) == "fgremre", "pulse sequence")
 check(all_series["mre/colour"][0].PhotometricInterpretation == "RGB", "colour copy")
 wave = all_series["mre/wave"][0]
+check(int(wave.NumberOfTemporalPositions) == 4, "time steps of the wave")
 check(abs(float(wave.WindowWidth) - 6283) < 1e-9 and float(wave.WindowCenter) == 0, "wave window")
 
 # The mean that a reader measures with the confidence mask inside the structure's contours is the truth, to the noise.

@@ -110,6 +110,24 @@ TEST_F(Written, ScanFindsEveryRoleAndReadsTheSameVoxels) {
   EXPECT_TRUE(dicom::findRole(scan, dicom::SeriesRole::ColourCopy).colour);
 }
 
+TEST_F(Written, WaveIsOneSeriesOfFourTimeSteps) {
+  const PhantomPatient& p = test::sharedPatient();
+  const dicom::ScanResult scan = dicom::scan(patient() / "mre" / "wave");
+  ASSERT_EQ(scan.series.size(), p.wave.size());
+  for (std::size_t t = 0; t < p.wave.size(); ++t) {
+    const dicom::Series& s = scan.series[t];
+    EXPECT_EQ(s.role, dicom::SeriesRole::Wave);
+    EXPECT_EQ(s.temporalIndex, static_cast<int>(t));
+    EXPECT_EQ(s.uid.substr(0, s.uid.find('#')), scan.series.front().uid);
+    EXPECT_FALSE(s.error) << *s.error;
+    const image::ScalarVolume read = dicom::readSeries(s);
+    EXPECT_TRUE(read.grid.sameGeometry(p.wave[t].grid));
+    EXPECT_TRUE(std::equal(read.values.begin(), read.values.end(), p.wave[t].values.begin(), p.wave[t].values.end(),
+                           [](float a, std::int16_t b) { return a == static_cast<float>(b); }))
+        << "step " << t;
+  }
+}
+
 TEST_F(Written, ContoursComeBackOnTheirSlices) {
   const PhantomPatient& p = test::sharedPatient();
   const dicom::StructureSet set = dicom::readRtStruct(patient() / "rtstruct.dcm");
@@ -166,6 +184,19 @@ TEST(WriteMr, RefusesASeriesWithoutIdentity) {
   g.size = {2, 2, 1};
   dicom::MrSeriesHeader header;
   EXPECT_THROW(dicom::writeMrSeries(folder / "s", header, Int16Volume(g)), BadArgument);
+}
+
+TEST(WriteMr, RefusesTimeStepsThatAreNoneOrDiffer) {
+  test::TemporaryFolder folder;
+  image::Grid g;
+  g.size = {2, 2, 1};
+  image::Grid other = g;
+  other.origin_lps_mm.x() = 1.0;
+  dicom::MrSeriesHeader header;
+  header.studyUid = header.seriesUid = header.frameOfReferenceUid = "1.2.3";
+  EXPECT_THROW(dicom::writeMrSeries(folder / "s", header, std::vector<Int16Volume>{}), BadArgument);
+  EXPECT_THROW(dicom::writeMrSeries(folder / "s", header, {Int16Volume(g), Int16Volume(other)}), BadArgument);
+  EXPECT_EQ(dicom::writeMrSeries(folder / "s", header, {Int16Volume(g), Int16Volume(g)}).files.size(), 2U);
 }
 
 TEST(WriteMr, SaysWhereAFolderCannotBeMade) {
