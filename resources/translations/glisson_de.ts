@@ -4,6 +4,18 @@
     <context>
         <name>glisson::panels::ComparePage</name>
         <message>
+            <source>± %1 by the size of the cells</source>
+            <translation>± %1 durch die Zellgröße</translation>
+        </message>
+        <message>
+            <source>What both answers share cancels: the difference shown errs by %1 mm on average.</source>
+            <translation>Was beide Antworten gemeinsam haben, hebt sich auf: Der gezeigte Unterschied irrt im Mittel um %1 mm.</translation>
+        </message>
+        <message>
+            <source>That is more than half of the mean difference: use smaller cells before concluding.</source>
+            <translation>Das ist mehr als die Hälfte des mittleren Unterschieds: Vor einem Schluss kleinere Zellen nehmen.</translation>
+        </message>
+        <message>
             <source>Drawing the slice…</source>
             <translation>Die Schicht wird gezeichnet…</translation>
         </message>
@@ -172,14 +184,6 @@
         <message>
             <source>The cells of %1 mm may shift a place by %2 mm on average, and by no more than %3 mm in 95 % of the liver (estimated from cells twice as large).</source>
             <translation>Die Zellen von %1 mm können eine Stelle im Mittel um %2 mm verschieben, in 95 % der Leber um höchstens %3 mm (geschätzt aus doppelt so großen Zellen).</translation>
-        </message>
-        <message>
-            <source>That is less than half of the mean difference shown.</source>
-            <translation>Das ist weniger als die Hälfte des gezeigten mittleren Unterschieds.</translation>
-        </message>
-        <message>
-            <source>That is more than half of the mean difference shown: use smaller cells before concluding.</source>
-            <translation>Das ist mehr als die Hälfte des gezeigten mittleren Unterschieds: vor Schlüssen kleinere Zellen nehmen.</translation>
         </message>
         <message>
             <source>How much the size of the cells matters is not known: %1</source>

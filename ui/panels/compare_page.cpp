@@ -93,6 +93,9 @@ QWidget* ComparePage::makeSide() {
   retractor_ = labelled({}, "number");
   retractor_->setObjectName(QStringLiteral("differenceAtRetractor"));
   side->addWidget(retractor_);
+  retractorError_ = labelled({}, "faint");
+  retractorError_->setObjectName(QStringLiteral("differenceAtRetractorError"));
+  side->addWidget(retractorError_);
   side->addWidget(section(tr("Over the whole liver")));
   numbers_ = labelled({}, "faint");
   numbers_->setObjectName(QStringLiteral("differenceNumbers"));
@@ -275,6 +278,7 @@ void ComparePage::showNumbers() {
   const auto result = session_.result();
   if (!result || !result->difference) {
     retractor_->setText(QStringLiteral("–"));
+    retractorError_->clear();
     numbers_->setText(tr("Not run yet."));
     vessels_->setText(QStringLiteral("–"));
     validity_->setText(QStringLiteral("–"));
@@ -282,6 +286,10 @@ void ComparePage::showNumbers() {
   }
   const comparison::Difference& d = *result->difference;
   retractor_->setText(mm(d.at_retractor_mm));
+  const auto& e = result->discretisation;
+  retractorError_->setText(e && e->difference && e->difference->at_retractor_mm
+                               ? tr("± %1 by the size of the cells").arg(mm(*e->difference->at_retractor_mm))
+                               : QString());
   numbers_->setText(tr("mean %1, 95th percentile %2, largest %3\n%4")
                         .arg(mm(d.mean_mm), mm(d.p95_mm), mm(d.max_mm),
                              d.clinically_significant

@@ -72,7 +72,7 @@ class ComparePage : public QWidget {
   QCheckBox *arrows_, *magnify_;
   QPushButton* export_;
   QSlider* slice_;
-  QLabel *sliceText_, *retractor_, *numbers_, *vessels_, *validity_;
+  QLabel *sliceText_, *retractor_, *retractorError_, *numbers_, *vessels_, *validity_;
   QComboBox *colours_, *view_, *what_, *chart_;
 };
 

@@ -34,7 +34,7 @@ QWidget* ComparePage::makeVesselList() {
   list_->setHeaderLabels({tr("Apart"), tr("Slice"), tr("L, P, S (mm)")});
   list_->setRootIsDecorated(false);
   list_->setUniformRowHeights(true);
-  list_->setFixedHeight(132);
+  list_->setFixedHeight(108);
   list_->header()->setStretchLastSection(true);
   list_->setColumnWidth(0, 78);
   list_->setColumnWidth(1, 60);
@@ -132,11 +132,12 @@ QString ComparePage::trust() const {
                    .arg(e.cell_mm, 0, 'f', 1)
                    .arg(e.mean_mm, 0, 'f', 2)
                    .arg(e.p95_mm, 0, 'f', 2);
-      if (result->difference && result->difference->mean_mm > 0.0)
-        words
-            << (e.mean_mm < 0.5 * result->difference->mean_mm
-                    ? tr("That is less than half of the mean difference shown.")
-                    : tr("That is more than half of the mean difference shown: use smaller cells before concluding."));
+      if (e.difference && result->difference && result->difference->mean_mm > 0.0) {
+        words << tr("What both answers share cancels: the difference shown errs by %1 mm on average.")
+                     .arg(e.difference->mean_mm, 0, 'f', 2);
+        if (e.difference->mean_mm > 0.5 * result->difference->mean_mm)
+          words << tr("That is more than half of the mean difference: use smaller cells before concluding.");
+      }
     } else {
       words << tr("How much the size of the cells matters is not known: %1").arg(QString::fromStdString(e.note));
     }
