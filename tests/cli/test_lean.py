@@ -64,6 +64,18 @@ class Lean(unittest.TestCase):
         self.assertIn("libstdc++", linked)
         self.assertIsNone(DRAWING.search(linked), linked)
 
+    def test_cells_that_leave_the_verdict_open_are_told(self):
+        # Displacements are proportional to the force: one that puts the difference at the retractor on the line of 5 mm,
+        # where any error leaves it open, and one that puts it at 0.5 mm, where the error would have to be nine times that.
+        was = self.record["difference"]["at_retractor_mm"]
+        for wanted, open_ in ((5.0, True), (0.5, False)):
+            force = [{**self.scene["loads"][0], "force": self.scene["loads"][0]["force"] * wanted / was}]
+            r = cli_json("run", self.write("line.json", [], loads=force), "--output", self.folder / "line")
+            self.assertAlmostEqual(r["difference"]["at_retractor_mm"], wanted, delta=1e-3 * wanted)
+            error = r["discretisation_error"]["difference"]["at_retractor_mm"]
+            self.assertTrue(0 < error < 9 * wanted, error)
+            self.assertEqual(any("on which side of that line" in w for w in r["warnings"]), open_, r["warnings"])
+
     def test_leaving_out_changes_no_bit_of_what_is_asked_for(self):
         alone = self.folder / "alone"
         r = cli_json("run", self.write("alone.json", ["displacement-field"]), "--output", alone)

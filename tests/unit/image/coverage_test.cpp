@@ -150,5 +150,23 @@ TEST(KeepingVolume, LeavesWhatIsThinnerThanACell) {
   }
 }
 
+// A block with a layer on top that fills three quarters of its cells is a little too large in cells, and the root of a
+// finger of 10 / 16 of a cell is what could be taken away for it: the finger would be lost with it.
+TEST(KeepingVolume, TakesNoCellAwayThatJoinsOthers) {
+  const Grid g = gridOf({40, 20, 24}, {1, 1, 1});
+  Mask m(g);
+  for (int k = 0; k < 24; ++k)
+    for (int j = 0; j < 20; ++j)
+      for (int i = 0; i < 40; ++i) {
+        const bool block = i < 20 && k < 23;
+        const int row = j - 8, line = k - 8;
+        const bool finger = i >= 20 && i < 36 && row >= 0 && row < 4 && line >= 0 && line < 4 && 4 * row + line < 10;
+        m.at(i, j, k) = block || finger ? 1 : 0;
+      }
+  const Mask out = resampleKeepingVolume(m, gridOf({10, 5, 6}, {4, 4, 4}));
+  EXPECT_EQ(volume_mm3(out), 64.0 * (5 * 5 * 6 + 4));
+  EXPECT_EQ(volume_mm3(largestComponent(out)), volume_mm3(out));
+}
+
 }  // namespace
 }  // namespace glisson::image
