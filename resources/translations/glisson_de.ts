@@ -249,8 +249,8 @@
             <translation>MRE-Welle</translation>
         </message>
         <message>
-            <source>step %1 of %2</source>
-            <translation>Schritt %1 von %2</translation>
+            <source>Time step of the wave</source>
+            <translation>Zeitschritt der Welle</translation>
         </message>
         <message>
             <source>one time step</source>

@@ -150,6 +150,7 @@ class RandomEvents : public QObject, private glisson::test::WindowBench {
       QTest::keyClick(mri(), Qt::Key_P);
       session().apply(session().tool().key(glisson::tools::ToolKey::Delete, mri()->plane()));
       QVERIFY(polygons().size() < before);
+      QCoreApplication::processEvents();
     }
   }
 

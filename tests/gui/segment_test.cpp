@@ -365,6 +365,18 @@ class Segment : public QObject, private glisson::test::WindowBench {
     QCOMPARE(find<QSpinBox>("erosionPixels")->value(), 4);
   }
 
+  // 1366 x 768, less what a desktop takes.
+  void theWindowFitsOnASmallScreen() {
+    click("freehandTool");  // has one more field
+    click("layerWave");
+    for (const glisson::session::Step step : glisson::session::steps) {
+      window().showStep(step);
+      const QSize least = window().minimumSizeHint();
+      QVERIFY2(least.width() <= 1340 && least.height() <= 700,
+               qPrintable(QStringLiteral("%1 x %2").arg(least.width()).arg(least.height())));
+    }
+  }
+
   void cleanupTestCase() { close(); }
 };
 

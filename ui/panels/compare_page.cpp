@@ -86,8 +86,8 @@ ComparePage::ComparePage(session::Session& session, QWidget* parent)
 }
 
 QWidget* ComparePage::makeSide() {
-  QVBoxLayout* side = nullptr;
-  QFrame* frame = sidePanel(side);
+  auto* frame = new SidePanel;
+  QVBoxLayout* side = frame->column();
   side->addWidget(labelled(tr("MRE against atlas"), "heading"));
   side->addWidget(section(tr("Difference at the retractor")));
   retractor_ = labelled({}, "number");
@@ -150,6 +150,10 @@ QWidget* ComparePage::makeSide() {
   magnify_->setToolTip(tr("Beside the slice: where both answers differ most in it, or the vessel that was chosen"));
   magnify_->setChecked(true);
   form->addRow(QString(), magnify_);
+  for (QComboBox* box : {colours_, view_, what_, chart_}) {  // none makes the panel wider than it is
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(10);
+  }
   connect(arrows_, &QCheckBox::toggled, this, [this](bool on) {
     scene_->setArrows(on);
     drawSlice();

@@ -5,6 +5,7 @@
 #include <QFrame>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QVBoxLayout>
 
 #include "panels/theme.h"
@@ -45,15 +46,25 @@ inline QPushButton* button(const char* objectName, const QString& text, const QS
   return made;
 }
 
-/// The panel at the right of a page.
-inline QFrame* sidePanel(QVBoxLayout*& layout, int width = 300) {
-  auto* frame = new QFrame;
-  frame->setObjectName(QStringLiteral("sidePanel"));
-  frame->setFixedWidth(width);
-  layout = new QVBoxLayout(frame);
-  layout->setContentsMargins(16, 14, 16, 14);
-  layout->setSpacing(8);
-  return frame;
-}
+/// The panel at the right of a page. It scrolls where the window is lower than what it holds.
+class SidePanel : public QScrollArea {
+ public:
+  explicit SidePanel(QWidget* parent = nullptr) : QScrollArea(parent) {
+    setObjectName(QStringLiteral("sidePanel"));
+    setFixedWidth(300);
+    setWidgetResizable(true);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    auto* held = new QWidget;
+    held->setObjectName(QStringLiteral("sidePanelHeld"));
+    column_ = new QVBoxLayout(held);
+    column_->setContentsMargins(16, 14, 16, 14);
+    column_->setSpacing(8);
+    setWidget(held);
+  }
+  QVBoxLayout* column() const { return column_; }
+
+ private:
+  QVBoxLayout* column_;
+};
 
 }  // namespace glisson::panels

@@ -21,8 +21,8 @@ ImageLayers::~ImageLayers() = default;
 ImageLayers::ImageLayers(views::SliceView* view, QWidget* parent)
     : QWidget(parent), view_(view), images_(std::make_unique<session::OpenImages>()) {
   auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(8, 4, 8, 4);
-  row->setSpacing(4);
+  row->setContentsMargins(6, 4, 6, 4);
+  row->setSpacing(2);
   auto* group = new QButtonGroup(this);
   const std::array<std::pair<const char*, QString>, 4> names = {{{"layerStiffness", tr("Stiffness")},
                                                                  {"layerMagnitude", tr("Magnitude")},
@@ -126,8 +126,9 @@ void ImageLayers::showWave() {
   shown.wave = true;
   shown.title = tr("MRE wave");
   view_->setVolume(shown);
-  phaseText_->setText(images_->wave.size() > 1 ? tr("step %1 of %2").arg(phase_ + 1).arg(images_->wave.size())
-                                               : tr("one time step"));
+  const QString step = QStringLiteral("%1/%2").arg(phase_ + 1).arg(images_->wave.size());
+  phaseText_->setText(images_->wave.size() > 1 ? step : QString());
+  phaseText_->setToolTip(images_->wave.size() > 1 ? tr("Time step of the wave") : tr("one time step"));
 }
 
 void ImageLayers::togglePlay() {

@@ -84,8 +84,8 @@ ModelPage::ModelPage(session::Session& session, QWidget* parent) : QWidget(paren
 }
 
 QWidget* ModelPage::makeSide() {
-  QVBoxLayout* side = nullptr;
-  QFrame* frame = sidePanel(side);
+  auto* frame = new SidePanel;
+  QVBoxLayout* side = frame->column();
   side->addWidget(labelled(tr("Model"), "heading"));
   side->addWidget(section(tr("Material")));
   auto* material = new QFormLayout;

@@ -29,12 +29,8 @@ QString kPa(double value) {
 }  // namespace
 
 OutlinePanel::OutlinePanel(session::Session& session, const Keys& keys, QWidget* parent)
-    : QFrame(parent), session_(session), keys_(keys) {
-  setObjectName(QStringLiteral("sidePanel"));
-  setFixedWidth(300);
-  auto* side = new QVBoxLayout(this);
-  side->setContentsMargins(16, 14, 16, 14);
-  side->setSpacing(8);
+    : SidePanel(parent), session_(session), keys_(keys) {
+  QVBoxLayout* side = column();
   makeTools(side);
   makeReadout(side);
   makeList(side);

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <QFrame>
 #include <optional>
 
+#include "panels/form.h"
 #include "tools/keymap.h"
 
 class QCheckBox;
@@ -22,7 +22,7 @@ namespace glisson::panels {
 class Keys;
 
 /// Right of the images: the state of the tool, stiffness under the outline, the inner region, and the list of slices.
-class OutlinePanel : public QFrame {
+class OutlinePanel : public SidePanel {
   Q_OBJECT
  public:
   OutlinePanel(session::Session& session, const Keys& keys, QWidget* parent = nullptr);

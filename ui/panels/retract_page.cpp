@@ -159,8 +159,8 @@ QWidget* RetractPage::makePlayBar() {
 }
 
 QWidget* RetractPage::makeSide() {
-  QVBoxLayout* side = nullptr;
-  QFrame* frame = sidePanel(side);
+  auto* frame = new SidePanel;
+  QVBoxLayout* side = frame->column();
   side->addWidget(labelled(tr("Retraction"), "heading"));
   side->addWidget(section(tr("Nathanson retractor")));
   auto* retractor = new QFormLayout;

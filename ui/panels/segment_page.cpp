@@ -48,8 +48,8 @@ SegmentPage::SegmentPage(session::Session& session, Keys& keys, QWidget* parent)
   };
   auto* strip = new QWidget;
   auto* row = new QHBoxLayout(strip);
-  row->setContentsMargins(8, 4, 8, 4);
-  row->setSpacing(4);
+  row->setContentsMargins(6, 4, 6, 4);
+  row->setSpacing(2);
   makeStrip(row);
   strip->setFixedHeight(42);
   layers_->setFixedHeight(42);
@@ -110,6 +110,7 @@ void SegmentPage::makeStrip(QHBoxLayout* strip) {
   spacing_->setRange(1, 100);
   spacing_->setButtonSymbols(QAbstractSpinBox::NoButtons);  // wheel and arrow keys step it
   spacing_->setSuffix(tr(" px"));
+  spacing_->setFixedWidth(58);
   spacing_->setToolTip(tr("Freehand: a vertex every so many pixels of the screen"));
   spacing_->setAccessibleName(tr("Spacing of freehand vertices"));
   const QString setting = QStringLiteral("segment/freehandSpacing");
@@ -125,6 +126,8 @@ void SegmentPage::makeStrip(QHBoxLayout* strip) {
   presets->setObjectName(QStringLiteral("windowPreset"));
   presets->setToolTip(tr("Window and level of the MRI (0 to 5)"));
   presets->addItems({tr("Auto"), tr("Soft"), tr("Liver"), tr("Vessels"), tr("Bright"), tr("Dark")});
+  presets->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  presets->setMinimumContentsLength(4);
   strip->addWidget(presets);
   connect(presets, &QComboBox::activated, this, &SegmentPage::preset);
   link_ = tool("linkViews", "link", Command::LinkViews);

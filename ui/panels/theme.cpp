@@ -81,7 +81,8 @@ QString styleSheet(const Colours& c) {
     QLabel#viewHint { background: #101216; color: #94a0b0; }
     QLabel#researchUse { color: %faint; font-weight: 600; padding: 0 8px; }
     QFrame[role="card"] { background: %base; border: 1px solid %border; border-radius: 8px; }
-    QFrame#sidePanel { background: %window; border-left: 1px solid %border; }
+    QScrollArea#sidePanel { background: %window; border: none; border-left: 1px solid %border; }
+    QWidget#sidePanelHeld { background: %window; }
     QFrame#recoveryBar { background: %raised; border-bottom: 1px solid %accent; }
     QFrame#rail { background: %base; border-right: 1px solid %border; }
   )");
