@@ -1713,6 +1713,10 @@
     <context>
         <name>glisson::panels::RetractPage</name>
         <message>
+            <source>Straight to the end of the time steps, not their course.</source>
+            <translation>Geradewegs zum Ende der Zeitschritte, nicht ihr Verlauf.</translation>
+        </message>
+        <message>
             <source>Play the retraction</source>
             <translation>Retraktion abspielen</translation>
         </message>

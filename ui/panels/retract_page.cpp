@@ -145,6 +145,9 @@ QWidget* RetractPage::makePlayBar() {
   fraction_->setMinimumWidth(52);
   fraction_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   row->addWidget(fraction_);
+  notCourse_ = labelled(tr("Straight to the end of the time steps, not their course."), "faint");
+  notCourse_->hide();
+  row->addWidget(notCourse_);
   // Playing shows the run; the hand shows the tool: one at a time.
   connect(live_, &LiveBar::liveChanged, this, [this](bool live) {
     if (live) setPlaying(false);
@@ -243,6 +246,7 @@ void RetractPage::showResult() {
   play_->setEnabled(scene_->hasScene());
   time_->setEnabled(scene_->hasScene());
   time_->setValue(100);
+  notCourse_->setVisible(result && result->primary.steps > 0);
   if (!result) {
     numbers_->setText(tr("Not run yet."));
     validity_->clear();

@@ -56,7 +56,7 @@ class RetractPage : public QWidget {
   QWidget* playBar_;
   QSlider* time_;
   QPushButton *play_, *run_, *place_, *moved_;
-  QLabel *fraction_, *numbers_, *validity_, *modeWords_;
+  QLabel *fraction_, *notCourse_, *numbers_, *validity_, *modeWords_;
   QDoubleSpinBox *diameter_, *length_, *spread_, *force_, *abdomen_;
   QComboBox* forceKind_;
   QTimer clock_;
