@@ -237,6 +237,24 @@ class Scene3D : public QObject, private glisson::test::WindowBench {
     QVERIFY(session().parameters() == proposed);
   }
 
+  void turningTheProposedBarLeavesItWhereItLies() {
+    auto* view = find<SceneView>("retractView");
+    for (const int handle : {int{PlacementEditor::barEndB}, int{PlacementEditor::hoist}}) {
+      QTRY_VERIFY_WITH_TIMEOUT(!session().preview().busy() && view->isSettled(), wait_ms);
+      QVERIFY(!session().parameters().placement.barAt_lps.has_value());
+      const Eigen::Vector3d contact = mark(view, PlacementEditor::contact)->at_lps;
+      const QPoint from = view->pixelOf(mark(view, handle)->at_lps).toPoint();
+      drag(view, from, from + QPoint(18, 14));
+      QTRY_VERIFY_WITH_TIMEOUT(!session().preview().busy(), wait_ms);
+      QVERIFY(session().parameters().placement.barAt_lps.has_value());
+      QVERIFY((mark(view, PlacementEditor::contact)->at_lps - contact).norm() < 1e-9);
+      // Where it is proposed is asked for.
+      QTest::mouseClick(find<QPushButton>("automaticBar"), Qt::LeftButton);
+      QVERIFY(!session().parameters().placement.barAt_lps.has_value());
+    }
+    for (int n = 0; n < 4; ++n) undo();
+  }
+
   void theSameIsLaidWithKeysAlone() {
     auto* view = find<SceneView>("retractView");
     QTRY_VERIFY_WITH_TIMEOUT(!session().preview().busy() && view->isSettled(), wait_ms);

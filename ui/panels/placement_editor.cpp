@@ -236,6 +236,8 @@ void PlacementEditor::move(int handle, const Eigen::Vector3d& at, bool ended) {
     moving_->barAt_lps = p_lps;
     what = tr("move the bar");
   } else if (b && (handle == barEndA || handle == barEndB)) {
+    // The contact stays: with the axis or the hoist alone given, another place would be proposed.
+    moving_->barAt_lps = b->contact_lps;
     Eigen::Vector3d d = p_lps - b->contact_lps;
     d -= d.dot(b->direction) * b->direction;
     if (d.norm() > 1.0) {
@@ -244,6 +246,7 @@ void PlacementEditor::move(int handle, const Eigen::Vector3d& at, bool ended) {
     }
     what = tr("turn the bar");
   } else if (b && handle == hoist) {
+    moving_->barAt_lps = b->contact_lps;
     const Eigen::Vector3d d = (p_lps - b->contact_lps).normalized();
     if (d.allFinite() && d.cross(moving_->barAxis).norm() >= session::leastCross) moving_->hoistDirection = d;
     what = tr("turn the hoist");
