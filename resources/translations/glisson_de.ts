@@ -202,8 +202,8 @@
             <translation>Fehler gegen Rechenzeit</translation>
         </message>
         <message>
-            <source>%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 % at 5 mm or more</source>
-            <translation>%1 Landmarken: im Mittel %2, 95. Perzentil %3, größte %4; %5 % bei 5 mm oder mehr</translation>
+            <source>%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 of them at 5 mm or more</source>
+            <translation>%1 Landmarken: im Mittel %2, 95. Perzentil %3, größte %4; %5 davon bei 5 mm oder mehr</translation>
         </message>
     </context>
     <context>
@@ -509,6 +509,10 @@
     <context>
         <name>glisson::panels::MainWindow</name>
         <message>
+            <source>Outline the liver first: there is nothing to retract.</source>
+            <translation>Erst die Leber umranden: Es gibt nichts zu heben.</translation>
+        </message>
+        <message>
             <source>Open DICOM folder</source>
             <translation>DICOM-Ordner öffnen</translation>
         </message>
@@ -687,10 +691,6 @@
         <message>
             <source>Cancel</source>
             <translation>Abbrechen</translation>
-        </message>
-        <message>
-            <source>Glisson[*] – %1</source>
-            <translation>Glisson[*] – %1</translation>
         </message>
         <message>
             <source>Cancelling</source>
@@ -1422,6 +1422,18 @@
         <message>
             <source>No vessels were found in the MRI.</source>
             <translation>Im MRT wurden keine Gefäße gefunden.</translation>
+        </message>
+        <message>
+            <source>a block</source>
+            <translation>ein Block</translation>
+        </message>
+        <message>
+            <source>posterior surface</source>
+            <translation>hintere Oberfläche</translation>
+        </message>
+        <message>
+            <source>superior surface</source>
+            <translation>obere Oberfläche</translation>
         </message>
         <message>
             <source>Fixed (orange): %1.</source>
@@ -2338,6 +2350,18 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
             <source>cancelled</source>
             <translation>abgebrochen</translation>
         </message>
+        <message>
+            <source>Interpolated outlines accepted: %1.</source>
+            <translation>Interpolierte Konturen angenommen: %1.</translation>
+        </message>
+        <message>
+            <source>Undone: %1.</source>
+            <translation>Rückgängig: %1.</translation>
+        </message>
+        <message>
+            <source>Done again: %1.</source>
+            <translation>Wiederholt: %1.</translation>
+        </message>
     </context>
     <context>
         <name>glisson::views::SceneView</name>
@@ -3052,6 +3076,10 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>This outline counts.</source>
             <translation>Diese Kontur zählt.</translation>
+        </message>
+        <message>
+            <source>Accepted.</source>
+            <translation>Angenommen.</translation>
         </message>
     </context>
     <context>

@@ -7,9 +7,11 @@
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QTreeWidget>
+#include <cmath>
 
 #include "panels/form.h"
 #include "panels/method_chart.h"
+#include "panels/palette_choice.h"
 #include "pipeline/pictures.h"
 #include "render/maps.h"
 #include "session/session.h"
@@ -124,6 +126,8 @@ QWidget* ComparePage::makeSide() {
   colours_ = new QComboBox;
   colours_->setObjectName(QStringLiteral("paletteChoice"));
   colours_->addItems({tr("Red / blue"), tr("Orange / blue (colour-blind)")});
+  colours_->setCurrentIndex(chosenPalette() == render::Palette::ColourBlind ? 1 : 0);
+  scene_->setPalette3D(palette_());
   form->addRow(tr("Colours"), colours_);
   view_ = new QComboBox;
   view_->setObjectName(QStringLiteral("cameraChoice"));
@@ -179,6 +183,7 @@ QWidget* ComparePage::makeSide() {
     view_->setEnabled(index == 0);
   });
   connect(colours_, &QComboBox::currentIndexChanged, this, [this] {
+    choosePalette(palette_());
     scene_->setPalette3D(palette_());
     drawSlice();
   });
@@ -301,10 +306,10 @@ void ComparePage::showNumbers() {
                                  : tr("At the retractor below the 5 mm that matter clinically.")));
   vessels_->setText(d.vessel_mm.empty()
                         ? tr("No vessel landmarks were found.")
-                        : tr("%1 landmarks: mean %2, 95th percentile %3, largest %4; %5\u00a0% at 5\u00a0mm or more")
+                        : tr("%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 of them at 5\u00a0mm or more")
                               .arg(static_cast<qulonglong>(d.vessel_mm.size()))
                               .arg(mm(d.vesselMean_mm), mm(d.vesselP95_mm), mm(d.vesselMax_mm))
-                              .arg(100.0 * d.vesselFractionBeyond, 0, 'f', 0));
+                              .arg(std::llround(d.vesselFractionBeyond * static_cast<double>(d.vessel_mm.size()))));
   validity_->setText(trust());
 }
 

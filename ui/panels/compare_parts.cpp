@@ -15,18 +15,6 @@
 
 namespace glisson::panels {
 
-namespace {
-
-/// What the numerics say, as a sentence of its own.
-QString sentence(const std::string& text) {
-  QString s = QString::fromStdString(text);
-  if (!s.isEmpty()) s[0] = s[0].toUpper();
-  if (!s.endsWith(QLatin1Char('.'))) s += QLatin1Char('.');
-  return s;
-}
-
-}  // namespace
-
 QWidget* ComparePage::makeVesselList() {
   list_ = new QTreeWidget;
   list_->setObjectName(QStringLiteral("vesselList"));
@@ -139,7 +127,10 @@ QString ComparePage::trust() const {
           words << tr("That is more than half of the mean difference: use smaller cells before concluding.");
       }
     } else {
-      words << tr("How much the size of the cells matters is not known: %1").arg(QString::fromStdString(e.note));
+      QString why = QString::fromStdString(e.note);
+      if (const QString said = QStringLiteral("discretisation error unknown: "); why.startsWith(said))
+        why.remove(0, said.size());
+      words << tr("How much the size of the cells matters is not known: %1").arg(withStop(why));
     }
   }
   for (const std::string& w : result->warnings) words << sentence(w);

@@ -7,6 +7,8 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QVBoxLayout>
+#include <string>
+#include <utility>
 
 #include "panels/theme.h"
 
@@ -21,6 +23,17 @@ inline QLabel* labelled(const QString& text, const char* role) {
 }
 inline QLabel* section(const QString& text) {
   return labelled(text.toUpper(), "section");
+}
+
+inline QString withStop(QString text) {
+  if (!text.isEmpty() && !text.endsWith(QLatin1Char('.'))) text += QLatin1Char('.');
+  return text;
+}
+/// What the numerics say, as a sentence of its own.
+inline QString sentence(const std::string& text) {
+  QString s = QString::fromStdString(text);
+  if (!s.isEmpty()) s[0] = s[0].toUpper();
+  return withStop(std::move(s));
 }
 
 /// A number with its unit.

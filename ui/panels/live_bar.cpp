@@ -17,6 +17,11 @@ constexpr int reach_mm = 60;        // of the sliders
 constexpr double perStep_mm = 0.1;  // of a slider
 constexpr qint64 pause_ms = 1000;   // longer than this between pictures is no frame rate
 
+/// Tenths of a millimetre; nothing is "-0.0".
+QString tenths(double mm) {
+  return QString::number(std::round(10.0 * mm) / 10.0 + 0.0, 'f', 1);
+}
+
 }  // namespace
 
 LiveBar::LiveBar(session::Session& session, views::SceneView& scene, QWidget* parent)
@@ -162,7 +167,7 @@ void LiveBar::show(const Eigen::Vector3d& displacement_mm) {
   scene_.moveLive(frame_.mre_mm, frame_.atlas_mm, frame_.toolMre_mm);
   frame_s_ = 1e-9 * static_cast<double>(clock.nsecsElapsed());
   for (std::size_t a = 0; a < 3; ++a)
-    value_[a]->setText(tr("%1 mm").arg(displacement_mm[static_cast<Eigen::Index>(a)], 0, 'f', 1));
+    value_[a]->setText(tr("%1 mm").arg(tenths(displacement_mm[static_cast<Eigen::Index>(a)])));
   QString text =
       tr("Tool %1 mm from rest with %2 N (the run: %3 N). Difference under the bar, weighted by its pressure, %4 mm")
           .arg(displacement_mm.norm(), 0, 'f', 1)

@@ -14,6 +14,14 @@ namespace {
 
 const QColor fixedColour(255, 150, 40), hoistColour(120, 240, 150);
 
+/// What the numerics call the place of a support, as a reader would.
+QString placeInWords(const std::string& name) {
+  if (name == "box_mm") return ModelStage::tr("a block");
+  if (name == "surface \"posterior\"") return ModelStage::tr("posterior surface");
+  if (name == "surface \"superior\"") return ModelStage::tr("superior surface");
+  return QString::fromStdString(name);
+}
+
 }  // namespace
 
 ModelStage::ModelStage(session::Session& session, QWidget* parent)
@@ -133,11 +141,16 @@ void ModelStage::show_() {
   else
     words << (shown == model->sites ? sites + tr(", all shown.") : sites + tr(", %1 of them shown.").arg(shown));
   if (model->vessels.triangles.cols() == 0) words << tr("No vessels were found in the MRI.");
+  QStringList fixed, springs, problems;
   for (const auto& support : model->supports)
-    words << (support.problem.empty() ? (support.fixed ? tr("Fixed (orange): %1.") : tr("Springs (turquoise): %1."))
-                                            .arg(QString::fromStdString(support.name))
-                                      : QString::fromStdString(support.problem));
-  if (!model->barProblem.empty()) words << QString::fromStdString(model->barProblem);
+    if (!support.problem.empty())
+      problems << sentence(support.problem);
+    else
+      (support.fixed ? fixed : springs) << placeInWords(support.name);
+  if (!fixed.isEmpty()) words << tr("Fixed (orange): %1.").arg(fixed.join(QStringLiteral(", ")));
+  if (!springs.isEmpty()) words << tr("Springs (turquoise): %1.").arg(springs.join(QStringLiteral(", ")));
+  words << problems;
+  if (!model->barProblem.empty()) words << sentence(model->barProblem);
   words_->setText(words.join(QLatin1Char(' ')));
 }
 

@@ -9,6 +9,7 @@
 #include "panels/form.h"
 #include "panels/grey_window.h"
 #include "panels/live_bar.h"
+#include "panels/palette_choice.h"
 #include "panels/placement_editor.h"
 #include "session/session.h"
 #include "views/scene_view.h"
@@ -72,6 +73,7 @@ RetractPage::RetractPage(session::Session& session, QWidget* parent)
 }
 
 void RetractPage::showEvent(QShowEvent*) {
+  scene_->setPalette3D(chosenPalette());
   if (place_->isChecked()) placement_->setActive(true);
 }
 
@@ -264,10 +266,7 @@ void RetractPage::showResult() {
                         .arg(100.0 * r.max_strain, 0, 'f', 1)
                         .arg(r.max_rotation_deg, 0, 'f', 1));
   QStringList words;
-  for (const std::string& w : r.validity) {
-    words << QString::fromStdString(w);
-    if (!w.empty()) words.back()[0] = words.back()[0].toUpper();
-  }
+  for (const std::string& w : r.validity) words << sentence(w);
   validity_->setText(words.isEmpty() ? tr("Linear theory can be trusted here.") : words.join(QLatin1Char('\n')));
 }
 

@@ -23,14 +23,18 @@ namespace {
 enum Key { composed, movedLive, shownParts };
 constexpr int settle_ms = 140;
 
-/// What moves live is no fraction of the run.
-void dropFraction(vtkRenderer& renderer) {
+/// The fraction stands beside the slider, which is ahead of the picture. The caption, where it is given, holds the
+/// numbers of the run: what moves live has others.
+void dropWords(vtkRenderer& renderer, std::string_view caption) {
   std::vector<vtkProp*> gone;
   vtkCollectionSimpleIterator at;
   renderer.GetViewProps()->InitTraversal(at);
   while (vtkProp* prop = renderer.GetViewProps()->GetNextProp(at))
     if (auto* text = vtkTextActor::SafeDownCast(prop); text && text->GetInput())
-      if (std::string_view(text->GetInput()).starts_with("0 % of")) gone.push_back(prop);
+      if (const std::string_view words = text->GetInput();
+          words.ends_with(" % of the retraction") ||
+          (text->GetPosition()[1] < 0.5 && !words.empty() && caption.find(words) != std::string_view::npos))
+        gone.push_back(prop);
   for (vtkProp* prop : gone) renderer.RemoveViewProp(prop);
 }
 
@@ -123,6 +127,7 @@ void SceneView::setFraction(double t) {
 }
 
 void SceneView::setPalette3D(render::Palette palette) {
+  if (options_.palette == palette) return;
   options_.palette = palette;
   compose(true);
 }
@@ -193,8 +198,8 @@ void SceneView::compose(bool keepCamera) {
   if (layer_) options.t = 0.0, options.retractor = false;  // the live layer has the bar in hand
   painter_.change(composed, [scene = scene_, layer = layer_, options](vtkRenderer& renderer) {
     render::populate3D(&renderer, *scene, options);
+    dropWords(renderer, layer ? std::string_view(scene->caption) : std::string_view());
     if (!layer) return;
-    dropFraction(renderer);
     if (!*layer) *layer = std::make_unique<LiveLayer>(*scene, options.palette);
     (*layer)->setPalette(options.palette);
     (*layer)->addTo(&renderer);
