@@ -213,7 +213,8 @@ KrylovResult StaticSolver::State::runAuto(const std::vector<double>& b, std::vec
   }
   KrylovResult result;
   int spent = 0;
-  if (!multigridFailed) {
+  const bool failedBefore = multigridFailed;
+  if (!failedBefore) {
     result = runMultigrid(b, x, multigridLimit, progress);
     spent = result.iterations;
     report.kind = "multigrid-pcg";
@@ -223,8 +224,11 @@ KrylovResult StaticSolver::State::runAuto(const std::vector<double>& b, std::vec
     if (result.status == SolveStatus::Converged || options.iterations > 0) return result;
     multigridFailed = true;
   }
-  why << ", but multigrid " << describe(result.status) << " after " << spent << " iterations at residual "
-      << result.residual;
+  if (failedBefore)
+    why << "multigrid failed on an earlier load";
+  else
+    why << ", but multigrid " << describe(result.status) << " after " << spent << " iterations at residual "
+        << result.residual;
   std::vector<double> y;
   KrylovResult second;
   if (dofs <= factorisedLimit) {
@@ -238,7 +242,8 @@ KrylovResult StaticSolver::State::runAuto(const std::vector<double>& b, std::vec
   }
   report.why = why.str();
   second.iterations += spent;
-  if (!(second.residual < result.residual)) return result;
+  // Where multigrid was not tried there is no other answer to fall back on.
+  if (!failedBefore && !(second.residual < result.residual)) return result;
   x.swap(y);
   return second;
 }

@@ -210,6 +210,19 @@ TEST(Solvers, AutoFactorisesASmallBodyWhenManyLoadsHaveCome) {
   EXPECT_LE((last.u_m / 9 - first.u_m).norm(), 1e-7 * first.u_m.norm());
 }
 
+TEST(Solvers, ALoadAfterMultigridHasFailedIsSolvedWithoutIt) {
+  // No iteration reaches a tolerance below rounding: multigrid gives up, and is not tried for the loads that follow.
+  const Problem p = cube(12, [](const Eigen::Vector3d&) { return 3e3; });
+  StaticSolver solver(p.body, p.supports, with(SolverKind::Auto, 1e-17));
+  const Solution first = solver.solve(p.f_N);
+  EXPECT_NE(first.report.why.find("but multigrid"), std::string::npos) << first.report.why;
+  const Solution second = solver.solve(2 * p.f_N);
+  EXPECT_NE(second.report.why.find("failed on an earlier load"), std::string::npos) << second.report.why;
+  ASSERT_EQ(second.u_m.cols(), first.u_m.cols());
+  EXPECT_LE((second.u_m / 2 - first.u_m).norm(), 1e-9 * first.u_m.norm());
+  EXPECT_LT(second.report.residual, 1e-12);
+}
+
 TEST(Solvers, FlatCellsNeedFewIterations) {
   for (const double nu : {0.3, 0.45}) {
     Problem p;
