@@ -60,6 +60,10 @@ Working prepare(const image::ScalarVolume& mri, const image::Mask& liver, const 
   if (image::count(liver) == 0) throw BadInput("the liver mask is empty: there is no place to look for vessels");
   const image::Grid grid = workingGrid(mri.grid, liver, 2.0 * options.largestRadius_mm);
   Working w{image::resampleLinear(mri, grid, std::nanf("")), image::resampleNearest(liver, grid), 0.0};
+  bool inside = false;
+  for (std::size_t i = 0; i < w.liver.values.size(); ++i)
+    inside = inside || (w.liver.values[i] != 0 && std::isfinite(w.image.values[i]));
+  if (!inside) throw BadInput("the liver mask lies outside the image; check that both belong to the same examination");
   // The outermost voxel layer of the MRI mixes liver and surroundings.
   w.liver = image::erode(w.liver, std::min(mri.grid.spacing_mm.maxCoeff(), largestRim_mm));
   for (std::size_t i = 0; i < w.image.values.size(); ++i) {
@@ -72,8 +76,8 @@ Working prepare(const image::ScalarVolume& mri, const image::Mask& liver, const 
   }
   if (image::count(w.liver) == 0)
     throw BadInput(
-        "the liver mask lies outside the image (or is thinner than two voxels); check that both belong to the "
-        "same examination");
+        "the liver is thinner than two voxels everywhere: nothing of it is left once its outermost layer, mixed with "
+        "the surroundings, is taken off; outline it on at least three neighbouring slices");
   std::vector<float> values;
   for (std::size_t i = 0; i < w.image.values.size(); ++i)
     if (w.liver.values[i] != 0) values.push_back(std::abs(w.image.values[i]));
