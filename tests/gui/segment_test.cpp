@@ -111,6 +111,39 @@ class Segment : public QObject, private glisson::test::WindowBench {
     clean();
   }
 
+  void theStatusLineSaysWhatHappenedLast() {
+    clean();
+    const auto said = [this] { return window().statusBar()->currentMessage(); };
+    square(160, 160, 120);
+    QVERIFY2(said().startsWith("Closed."), qPrintable(said()));
+    QTest::keyClick(mri(), Qt::Key_Return);
+    QCOMPARE(said(), QStringLiteral("Accepted."));
+    session().undo();
+    QVERIFY2(said().startsWith("Undone"), qPrintable(said()));
+    session().undo();
+    for (const QPoint at : {QPoint(160, 160), QPoint(260, 260), QPoint(260, 160), QPoint(160, 260)})
+      QTest::mouseClick(mri(), Qt::LeftButton, {}, at);
+    QTest::keyClick(mri(), Qt::Key_Return);
+    QVERIFY2(said().contains("crosses itself"), qPrintable(said()));
+    QTest::keyClick(mri(), Qt::Key_Return);
+    QCOMPARE(said(), QStringLiteral("Accepted."));
+    QTest::keyClick(mri(), Qt::Key_Delete);
+    QVERIFY2(!said().contains("Accepted"), qPrintable(said()));
+    clean();
+    const int here = mri()->slice();
+    for (const int slice : {here, here + 2}) {
+      mri()->setSlice(slice);
+      square(160, 160, 120);
+      QTest::keyClick(mri(), Qt::Key_Return);
+    }
+    session().interpolateOutlines();
+    QTRY_VERIFY2(said().contains("interpolated between"), qPrintable(said()));
+    session().acceptInterpolated();
+    QCOMPARE(said(), QStringLiteral("Interpolated outlines accepted: 1."));
+    clean();
+    mri()->setSlice(here);
+  }
+
   void theStiffnessScaleIsNotDraggedAndTheWaveStaysAroundZero() {
     drag(mre(), {100, 100}, {200, 160}, Qt::LeftButton, Qt::AltModifier);
     QCOMPARE(mre()->volume().low, 0.0);

@@ -37,6 +37,7 @@ QString nameOfAct(const std::string& text) {
 }
 
 QString inWords(const tools::Sentence& sentence) {
+  if (sentence.empty()) return {};
   QString text = QCoreApplication::translate("tools", sentence.text);
   for (const std::string& value : sentence.values) text = text.arg(QString::fromStdString(value));
   return text;
@@ -108,7 +109,7 @@ void Session::apply(const tools::Acts& acts) {
 }
 
 void Session::toolMoved() {
-  if (!tool_.message().empty()) emit message(inWords(tool_.message()));
+  if (const tools::Sentence said = tool_.takeMessage(); !said.empty()) emit message(inWords(said));
   if (!tool_.dragging() && tool_.drawing().cols() != journalledVertices_) journal();
   const bool atWork = tool_.drawing().cols() >= 3 || tool_.preview().cols() > 0;
   if (atWork && !measureTimer_.isActive()) measureTimer_.start();
@@ -121,7 +122,7 @@ void Session::contoursTouched() {
   journal();
   failure_[static_cast<std::size_t>(Step::Segment)].clear();
   if (!measureTimer_.isActive()) measureTimer_.start();
-  if (!tool_.message().empty()) emit message(inWords(tool_.message()));
+  emit message(inWords(tool_.takeMessage()));  // nothing to say: what was said before is over
   emit contoursChanged();
   emit toolChanged();
   emit statusChanged();
@@ -134,9 +135,11 @@ void Session::undo() {
   }
   if (const auto where = undo_.whereUndo()) {
     emit pointWanted(*where);  // first the slice it concerns, then the act
+    const QString what = undoText();
     undo_.undo(contours_);
     tool_.contoursChanged();
     contoursTouched();
+    emit message(tr("Undone: %1.").arg(what));
   }
 }
 
@@ -147,9 +150,11 @@ void Session::redo() {
   }
   if (const auto where = undo_.whereRedo()) {
     emit pointWanted(*where);
+    const QString what = redoText();
     undo_.redo(contours_);
     tool_.contoursChanged();
     contoursTouched();
+    emit message(tr("Done again: %1.").arg(what));
   }
 }
 

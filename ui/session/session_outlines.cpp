@@ -101,13 +101,15 @@ void Session::propose(const Eigen::Vector3d& seed_lps) {
 
 void Session::acceptInterpolated() {
   roi::ContourStack after = contours_;
-  bool any = false;
+  std::size_t n = 0;
   for (roi::Polygon& p : after.polygons)
     if (p.state == roi::PolygonState::Interpolated) {
       p.state = roi::PolygonState::Accepted;
-      any = true;
+      ++n;
     }
-  if (any) replaceContours(std::move(after), "accept all interpolated outlines");
+  if (n == 0) return;
+  replaceContours(std::move(after), "accept all interpolated outlines");
+  emit message(tr("Interpolated outlines accepted: %1.").arg(static_cast<qulonglong>(n)));
 }
 
 void Session::replaceContours(roi::ContourStack after, const char* text) {

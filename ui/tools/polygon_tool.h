@@ -148,6 +148,7 @@ class PolygonTool {
   bool dragging() const { return drag_ != Drag::None && drag_ != Drag::Press; }
   /// One sentence for the status line: a refusal, a question, a hint. Empty where there is nothing to say.
   const Sentence& message() const { return message_; }
+  Sentence takeMessage() { return std::exchange(message_, {}); }  ///< to be said once
 
  private:
   enum class Drag { None, Press, Freehand, Move, Box, Sculpt };

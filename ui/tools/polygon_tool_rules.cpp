@@ -87,10 +87,7 @@ Acts PolygonTool::close(const SlicePlane& plane, bool acceptToo) {
   roi::Polygon polygon = polygonOf(plane, accepted ? roi::PolygonState::Accepted : roi::PolygonState::Draft);
   clearDrawing();
   select(contours_.polygons.size());  // its place once it is added
-  if (crossing)
-    message_ = {say::closedCrossing, {}};
-  else if (!accepted)
-    message_ = {say::closed, {}};
+  message_ = {crossing ? say::closedCrossing : accepted ? say::accepted : say::closed, {}};
   asked_ = crossing;
   return {AddPolygon{std::move(polygon)}};
 }
@@ -106,6 +103,7 @@ Acts PolygonTool::accept(const SlicePlane& plane) {
   }
   asked_ = false;
   vertices_.clear();
+  message_ = {say::accepted, {}};
   return {ChangeState{*selected_, roi::PolygonState::Accepted}};
 }
 

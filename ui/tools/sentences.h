@@ -28,6 +28,7 @@ namespace say {
 inline constexpr const char* closed = "Closed. Drag vertices to adjust, Enter to accept.";
 inline constexpr const char* closedCrossing =
     "The outline crosses itself. Move a vertex, or press Enter to accept it all the same.";
+inline constexpr const char* accepted = "Accepted.";
 inline constexpr const char* acceptCrossing =
     "The outline crosses itself. Press Enter again to accept it all the same.";
 inline constexpr const char* crossesNow =
