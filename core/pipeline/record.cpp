@@ -69,6 +69,17 @@ std::string digestOf(const std::filesystem::path& path) {
   return sha256(all.data(), all.size());
 }
 
+/// Everything of the record that depends on the folder the run was written into.
+void nameFiles(Json& j, const std::vector<std::filesystem::path>& files, render::Palette palette) {
+  j["palette"] = palette == render::Palette::RedBlue ? "red-blue" : "colour-blind";
+  j["outputs"] = Json::array();
+  j["files"] = Json::array({"run.json"});
+  for (const auto& f : files) {
+    j["outputs"].push_back({{"file", f.filename().string()}, {"sha256", sha256OfFile(f)}});
+    j["files"].push_back(f.filename().string());
+  }
+}
+
 Json differenceToJson(const comparison::Difference& d) {
   return {{"mean_mm", d.mean_mm},
           {"p95_mm", d.p95_mm},
@@ -145,6 +156,14 @@ std::vector<std::pair<std::string, std::string>> inputDigests(const Scene& scene
       if (other == name || other.rfind(name + " ", 0) == 0) ++n;
     digests.emplace_back(n == 1 ? name : name + " " + std::to_string(n), digestOf(path));
   });
+  return digests;
+}
+
+std::vector<std::pair<std::string, std::string>> inputDigestsOf(const std::string& record) {
+  std::vector<std::pair<std::string, std::string>> digests;
+  const Json j = Json::parse(record);  // outlives the loop over what it holds
+  for (const auto& [name, input] : j.at("inputs").items())
+    digests.emplace_back(name, input.at("sha256").get<std::string>());
   return digests;
 }
 
@@ -274,11 +293,16 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
   const std::string text = lasting.dump();
   j["results_sha256"] = sha256(text.data(), text.size());
   j["threads"] = threadCount();
-  j["palette"] = palette == render::Palette::RedBlue ? "red-blue" : "colour-blind";
-  j["outputs"] = Json::array();
-  j["files"] = Json::array({"run.json"});
-  for (const auto& f : r.files) {
-    j["outputs"].push_back({{"file", f.filename().string()}, {"sha256", sha256OfFile(f)}});
+  nameFiles(j, r.files, palette);
+  return j.dump(1);
+}
+
+std::string recordOfFiles(const std::string& record, const std::vector<std::filesystem::path>& files,
+                          const std::vector<std::filesystem::path>& beside, render::Palette palette) {
+  Json j = Json::parse(record);
+  nameFiles(j, files, palette);
+  for (const auto& f : beside) {
+    j["charts"].push_back({{"file", f.filename().string()}, {"sha256", sha256OfFile(f)}});
     j["files"].push_back(f.filename().string());
   }
   return j.dump(1);

@@ -144,21 +144,25 @@ void kinematics(Page& page, const RunResult& r) {
   }
 }
 
-std::string captionOf(const std::string& name) {
+/// Names the colours of the palette.
+std::string captionOf(const std::string& name, render::Palette palette) {
+  const bool usual = palette == render::Palette::RedBlue;
+  const std::string textbook = usual ? "red" : "orange", both = usual ? "purple" : "white";
   if (name == "difference-map.png") return "Distance between the two predictions, mm";
   if (name.rfind("overlay-3d", 0) == 0)
-    return "Vessels where the measured stiffness puts them (blue) and where the textbook stiffness does (red)";
+    return "Vessels where the measured stiffness puts them (blue) and where the textbook stiffness does (" + textbook +
+           ")";
   const char* where = name == "overlay-vessels.png"     ? "Slice of the most misplaced vessel"
                       : name == "overlay-retractor.png" ? "Slice of the retractor"
                                                         : "Slice of the largest difference";
-  return std::string(where) +
-         ": the image moved by each prediction, measured stiffness in blue, textbook in red, purple where they agree";
+  return std::string(where) + ": the image moved by each prediction, measured stiffness in blue, textbook in " +
+         textbook + ", " + both + " where they agree";
 }
 
 }  // namespace
 
 void Writer::report(const Scene& scene, const RunResult& r,
-                    const std::vector<std::pair<std::string, std::string>>& inputs) {
+                    const std::vector<std::pair<std::string, std::string>>& inputs, render::Palette palette) {
   Page page(r.difference ? "Liver retraction, measured against textbook stiffness" : "Deformation under load");
   results(page, r);
   trust(page, r);
@@ -167,7 +171,7 @@ void Writer::report(const Scene& scene, const RunResult& r,
   int figure = 0;
   for (const auto& f : r.files)
     if (f.extension() == ".png")
-      page.picture(f, "Figure " + std::to_string(++figure) + ". " + captionOf(f.filename().string()));
+      page.picture(f, "Figure " + std::to_string(++figure) + ". " + captionOf(f.filename().string(), palette));
   if (figure == 0) page.paragraph("There is none: what did not converge, or is no deformation, is not drawn.");
   page.heading("Method");
   for (const std::string& paragraph : methodText(scene, r)) page.paragraph(paragraph);

@@ -264,7 +264,8 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
       r.files.insert(r.files.end(), node.files.begin(), node.files.end());
       for (const std::string& n : node.notes) r.warnings.push_back("SOFA: " + n);
     });
-    steps.run("report", [&](const Progress&) { writer.report(scene, r, detail::inputDigests(scene)); });
+    steps.run("report",
+              [&](const Progress&) { writer.report(scene, r, detail::inputDigests(scene), options.palette); });
     r.json = detail::runRecord(scene, r, options.palette);
     r.files.insert(r.files.begin(), options.output / "run.json");
     writer.text("run.json", r.json + "\n");

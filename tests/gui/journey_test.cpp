@@ -2,8 +2,13 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QElapsedTimer>
+#include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <QLabel>
 #include <QPushButton>
+#include <QSet>
 #include <QSlider>
 #include <QTableWidget>
 #include <QTreeWidget>
@@ -11,6 +16,7 @@
 #include <cmath>
 #include <thread>
 
+#include "base/sha256.h"
 #include "panels/compare_page.h"
 #include "panels/live_bar.h"
 #include "panels/method_chart.h"
@@ -313,6 +319,43 @@ class Journey : public QObject, private glisson::test::WindowBench {
     for (const char* name : {"overlay-largest-difference.png", "difference-map.png", "overlay-3d-oblique.png",
                              "difference-boxes.png", "difference-boxes.svg", "report.html", "run.json"})
       QVERIFY2(std::filesystem::file_size(target / name) > 1000, name);
+    // The record names what lies there, no more and no less, each with its own digest.
+    QFile file(path("exported/run.json"));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QJsonObject record = QJsonDocument::fromJson(file.readAll()).object();
+    QSet<QString> named{QStringLiteral("run.json")};
+    for (const char* list : {"outputs", "charts"})
+      for (const QJsonValue& one : record[QLatin1String(list)].toArray()) {
+        const QString name = one["file"].toString();
+        named.insert(name);
+        QCOMPARE(one["sha256"].toString().toStdString(), glisson::sha256OfFile(target / name.toStdString()));
+      }
+    QSet<QString> there;
+    for (const auto& entry : std::filesystem::directory_iterator(target))
+      if (entry.is_regular_file()) there.insert(QString::fromStdString(entry.path().filename().string()));
+    QCOMPARE(there, named);
+    // In other colours: pictures, report and record say so; the numbers are the same.
+    find<QComboBox>("paletteChoice")->setCurrentIndex(1);
+    exported.clear();
+    compare->exportTo(path("exported-orange"));
+    QVERIFY(exported.wait(wait_ms));
+    find<QComboBox>("paletteChoice")->setCurrentIndex(0);
+    QFile other(path("exported-orange/run.json"));
+    QVERIFY(other.open(QIODevice::ReadOnly));
+    const QJsonObject orange = QJsonDocument::fromJson(other.readAll()).object();
+    QCOMPARE(record["palette"].toString(), QStringLiteral("red-blue"));
+    QCOMPARE(orange["palette"].toString(), QStringLiteral("colour-blind"));
+    QCOMPARE(orange["results_sha256"], record["results_sha256"]);
+    QFile report(path("exported-orange/report.html"));
+    QVERIFY(report.open(QIODevice::ReadOnly));
+    QVERIFY(report.readAll().contains("textbook in orange"));
+    const auto picture = [&](const char* where) {
+      return glisson::sha256OfFile(folder() / where / "overlay-largest-difference.png");
+    };
+    QVERIFY(picture("exported") != picture("exported-orange"));
+    QCOMPARE(QString::fromStdString(picture("exported")),
+             QString::fromStdString(glisson::sha256OfFile(std::filesystem::path(session().runFolder().toStdString()) /
+                                                          "overlay-largest-difference.png")));
   }
 
   void anExportShowsHowFarItIsAndCanBeCancelled() {

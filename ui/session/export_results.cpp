@@ -5,7 +5,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "pipeline/pictures.h"
+#include "pipeline/write_again.h"
 #include "render/colour_map.h"
 
 namespace glisson::session {
@@ -56,31 +56,15 @@ render::BoxPlot differenceBoxes(const pipeline::RunResult& result, const render:
 
 std::vector<std::filesystem::path> exportResults(const pipeline::RunResult& result,
                                                  const render::RetractionScene& picture, render::Palette palette,
+                                                 const std::filesystem::path& runFolder,
                                                  const std::filesystem::path& folder, const Progress& progress) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (!std::filesystem::is_directory(folder))
     throw BadInput("cannot make the folder for the pictures; choose a place that can be written to");
-  pipeline::PictureData data{picture, {}};
-  const std::vector<VesselPlace> vessels = vesselsBeyond(result, picture);
-  if (!vessels.empty()) data.vessel_lps_mm = vessels.front().seen_lps;
-  pipeline::PictureOptions options;
-  options.palette = palette;
   std::vector<std::filesystem::path> files;
-  const auto add = [&files](const std::vector<std::filesystem::path>& more) {
-    files.insert(files.end(), more.begin(), more.end());
-  };
   try {
-    progress.report(0.0, "slices");
-    add(pipeline::drawSlices(data, options, folder));
-    double done = 0.4;
-    for (const char* camera : {"oblique", "anterior"}) {
-      progress.report(done, "3-D");
-      options.cameras = {pipeline::cameraFromText(camera)};
-      add(pipeline::draw3D(data, options, folder));
-      done += 0.2;
-    }
-    progress.report(0.8, "charts and report");
+    progress.report(0.0, "charts");
     if (result.difference && result.atlas) {
       const render::BoxPlot plot = differenceBoxes(result, picture);
       files.push_back(folder / "difference-boxes.png");
@@ -88,17 +72,13 @@ std::vector<std::filesystem::path> exportResults(const pipeline::RunResult& resu
       files.push_back(folder / "difference-boxes.svg");
       writeAtomically(files.back(), render::svg(plot));
     }
-    for (const auto& file : result.files)
-      if (file.stem() == "report" || file.filename() == "run.json") {
-        std::filesystem::copy_file(file, folder / file.filename(), std::filesystem::copy_options::overwrite_existing,
-                                   failed);
-        if (failed) throw BadInput("cannot copy " + file.filename().string() + " into the folder: " + failed.message());
-        files.push_back(folder / file.filename());
-      }
-    progress.report(1.0, "done");
+    pipeline::writeAgain(result, {runFolder, folder, palette, files}, files, progress);
   } catch (...) {
     // Half an export would pass for a whole one.
-    for (const auto& file : files) std::filesystem::remove(file, failed);
+    for (const auto& file : files) {
+      std::filesystem::remove(file, failed);
+      if (file.parent_path() != folder) std::filesystem::remove(file.parent_path(), failed);  // where it is empty
+    }
     throw;
   }
   return files;

@@ -24,11 +24,12 @@ std::vector<VesselPlace> vesselsBeyond(const pipeline::RunResult& result, const 
 /// BadArgument where there is no difference to show.
 render::BoxPlot differenceBoxes(const pipeline::RunResult& result, const render::RetractionScene& picture);
 
-/// Pictures in this palette (slices, difference map, 3-D, box plot as PNG and SVG), the report and the record of the
-/// run, into the folder. Needs a thread without a window's OpenGL context. Throws BadInput, RenderUnavailable, Cancelled;
-/// then nothing of it stays.
+/// Everything the run wrote into its folder, with pictures (slices, difference map, 3-D), report and record in this
+/// palette, and the box plot as PNG and SVG, into another folder; the record names exactly what lies there. Needs a
+/// thread without a window's OpenGL context. Throws BadInput, RenderUnavailable, Cancelled; then nothing of it stays.
 std::vector<std::filesystem::path> exportResults(const pipeline::RunResult& result,
                                                  const render::RetractionScene& picture, render::Palette palette,
+                                                 const std::filesystem::path& runFolder,
                                                  const std::filesystem::path& folder, const Progress& progress = {});
 
 }  // namespace glisson::session

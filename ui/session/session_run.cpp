@@ -45,9 +45,9 @@ void Session::exportInto(const QString& folder, render::Palette palette) {
   work_ = Work::Export;
   auto files = std::make_shared<int>(0);
   worker_.start(
-      [files, result = result_, picture = picture_, palette,
+      [files, result = result_, picture = picture_, palette, from = std::filesystem::path(runFolder().toStdString()),
        target = std::filesystem::path(folder.toStdString())](const Progress& progress) {
-        *files = static_cast<int>(exportResults(*result, *picture, palette, target, progress).size());
+        *files = static_cast<int>(exportResults(*result, *picture, palette, from, target, progress).size());
       },
       [this, files](std::exception_ptr failure) {
         ended(Work::Export, failure);

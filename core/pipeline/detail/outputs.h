@@ -30,7 +30,9 @@ class Writer {
   void sliceOverlays(const PictureData& data, render::Palette palette);
   void overlays3D(const PictureData& data, render::Palette palette);
   /// inputs: name and SHA-256 of each input, for the manifest.
-  void report(const Scene& scene, const RunResult& r, const std::vector<std::pair<std::string, std::string>>& inputs);
+  /// palette: of the pictures, which the report names.
+  void report(const Scene& scene, const RunResult& r, const std::vector<std::pair<std::string, std::string>>& inputs,
+              render::Palette palette);
 
  private:
   std::filesystem::path note(const std::string& name);

@@ -13,6 +13,14 @@ namespace glisson::pipeline::detail {
 /// inputs, of the results and of each file in result.files; version, seed. No user, host or path.
 std::string runRecord(const Scene& scene, const RunResult& result, render::Palette palette);
 
+/// The record of a run with the files of another folder in it, drawn with this palette. beside: files that the run does
+/// not write, named under "charts" with their digests.
+std::string recordOfFiles(const std::string& record, const std::vector<std::filesystem::path>& files,
+                          const std::vector<std::filesystem::path>& beside, render::Palette palette);
+
+/// The inputs as the record holds them: as they were when the run read them.
+std::vector<std::pair<std::string, std::string>> inputDigestsOf(const std::string& record);
+
 /// What each input is, and its SHA-256 (of a folder: of the digests of its files, in their order).
 std::vector<std::pair<std::string, std::string>> inputDigests(const Scene& scene);
 

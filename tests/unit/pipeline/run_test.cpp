@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "image/io.h"
 #include "pipeline/run.h"
+#include "pipeline/write_again.h"
 #include "support/support.h"
 
 namespace glisson::pipeline {
@@ -45,6 +46,26 @@ class LetterRun : public testing::Test {
   test::TemporaryFolder folder_;
   image::Mask mask_;
 };
+
+TEST_F(LetterRun, WrittenAgainInOtherColoursIsWhatARunInTheseColoursWrites) {
+  const Scene all = scene("stiff.nrrd", R"(["displacement-field","overlay","report"])");
+  test::TemporaryFolder red, orange, again;
+  const auto outputsIn = [](const std::filesystem::path& folder) {
+    std::ifstream in(folder / "run.json");
+    const std::string record{std::istreambuf_iterator<char>(in), {}};
+    return record.substr(record.find("\"palette\""));
+  };
+  const RunResult first = run(all, {.output = red.path()});
+  run(all, {.output = orange.path(), .palette = render::Palette::ColourBlind});
+  std::vector<std::filesystem::path> written;
+  writeAgain(first, {red.path(), again.path(), render::Palette::ColourBlind}, written);
+  EXPECT_THAT(outputsIn(again.path()), HasSubstr("report.html"));
+  EXPECT_EQ(outputsIn(again.path()), outputsIn(orange.path()));  // names and digests
+  EXPECT_NE(outputsIn(again.path()), outputsIn(red.path()));
+  for (const auto& entry : std::filesystem::directory_iterator(again.path()))
+    EXPECT_THAT(written, testing::Contains(entry.path()));
+  EXPECT_THROW(writeAgain(first, {red.path(), red.path()}, written), BadInput);
+}
 
 TEST_F(LetterRun, MapEqualToTheAtlasGivesExactlyNoDifference) {
   const RunResult r = run(scene("mu.nrrd"), {});
