@@ -486,8 +486,8 @@
             <translation>Grund</translation>
         </message>
         <message>
-            <source>%1 series, %2 files left out. Correct a role where the guess is wrong.</source>
-            <translation>%1 Serien, %2 Dateien ausgelassen. Eine falsch geratene Rolle lässt sich ändern.</translation>
+            <source>%1 series, %2 files left out. ✓: in use. Correct a role where the guess is wrong.</source>
+            <translation>%1 Serien, %2 Dateien ausgelassen. ✓: in Gebrauch. Eine falsch geratene Rolle lässt sich ändern.</translation>
         </message>
         <message>
             <source>Answer…</source>
@@ -504,6 +504,22 @@
         <message>
             <source>%1 The elastogram is left out until this is answered.</source>
             <translation>%1 Das Elastogramm bleibt weg, bis das beantwortet ist.</translation>
+        </message>
+        <message>
+            <source>Goes on with the series in use</source>
+            <translation>Weiter mit den Serien in Gebrauch</translation>
+        </message>
+        <message>
+            <source>Outline the liver</source>
+            <translation>Leber umfahren</translation>
+        </message>
+        <message>
+            <source>In use: the MRI that is drawn on</source>
+            <translation>In Gebrauch: das MRT, auf dem gezeichnet wird</translation>
+        </message>
+        <message>
+            <source>In use: the elastogram that is measured</source>
+            <translation>In Gebrauch: das Elastogramm, das gemessen wird</translation>
         </message>
     </context>
     <context>
@@ -1622,6 +1638,10 @@
             <source>; mean weighted by area %1 kPa (µ)</source>
             <translation>; nach Fläche gewichtetes Mittel %1 kPa (µ)</translation>
         </message>
+        <message>
+            <source>This slice lies between elastography slices; slice %1 counts there.</source>
+            <translation>Diese Schicht liegt zwischen Schichten der Elastographie; dort zählt Schicht %1.</translation>
+        </message>
     </context>
     <context>
         <name>glisson::panels::PlacementEditor</name>
@@ -2361,6 +2381,10 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>Done again: %1.</source>
             <translation>Wiederholt: %1.</translation>
+        </message>
+        <message>
+            <source>There is no DICOM series, volume or case here; choose a DICOM folder, DICOMDIR, ZIP archive or case.json.</source>
+            <translation>Hier liegt weder eine DICOM-Serie noch ein Volumen noch ein Fall; einen DICOM-Ordner, DICOMDIR, ein ZIP-Archiv oder case.json wählen.</translation>
         </message>
     </context>
     <context>

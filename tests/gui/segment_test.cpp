@@ -111,6 +111,56 @@ class Segment : public QObject, private glisson::test::WindowBench {
     clean();
   }
 
+  void aHoleStaysLeftOutWhereverItIsPasted() {
+    clean();
+    const int here = mri()->slice();
+    square(160, 160, 160);
+    QTest::keyClick(mri(), Qt::Key_Return);
+    const auto hole = [this] {
+      QTest::mouseClick(mri(), Qt::LeftButton, Qt::ShiftModifier, {220, 220});
+      for (const QPoint at : {QPoint(260, 220), QPoint(260, 260), QPoint(220, 260)})
+        QTest::mouseClick(mri(), Qt::LeftButton, {}, at);
+      QTest::keyClick(mri(), Qt::Key_Return);
+      QTest::keyClick(mri(), Qt::Key_Return);
+    };
+    hole();
+    QCOMPARE(polygons().size(), std::size_t{2});
+    session().copyOutlines();
+    mri()->setSlice(here + 1);
+    session().pasteOutlines();
+    QVERIFY(polygons().back().exclude);
+    session().undo();
+    // The region takes its hole along, and one Enter accepts both.
+    mri()->setSlice(here);
+    session().tool().selectPolygon(0);
+    session().copyOutlines();
+    mri()->setSlice(here + 1);
+    session().pasteOutlines();
+    QCOMPARE(polygons().size(), std::size_t{4});
+    QCOMPARE(session().tool().selected(), std::optional<std::size_t>(2));
+    QVERIFY(!polygons()[2].exclude && polygons()[3].exclude);
+    QTest::keyClick(mri(), Qt::Key_Return);
+    QCOMPARE(session().acceptedCount(), std::size_t{4});
+    clean();
+    mri()->setSlice(here);
+  }
+
+  void aSliceBetweenThoseOfTheElastogramSaysWhichOneCounts() {
+    clean();
+    const int here = mri()->slice();
+    const QPoint at = pixelOf(glisson::test::trustedPlace(session()));
+    for (const int slice : {here, here + 1}) {
+      mri()->setSlice(slice);
+      square(at.x() - 40, at.y() - 40, 80);
+      QTest::keyClick(mri(), Qt::Key_Return);
+    }
+    const QString note = QStringLiteral("slice %1 counts there").arg(here + 1);
+    QTRY_VERIFY(find<QLabel>("liveReadout")->text().contains(note));
+    mri()->setSlice(here);
+    QTRY_VERIFY(!find<QLabel>("liveReadout")->text().contains("counts there"));
+    clean();
+  }
+
   void theStatusLineSaysWhatHappenedLast() {
     clean();
     const auto said = [this] { return window().statusBar()->currentMessage(); };

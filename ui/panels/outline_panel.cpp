@@ -26,6 +26,25 @@ QString kPa(double value) {
   return std::isfinite(value) ? QString::number(value, 'f', 2) : QStringLiteral("–");
 }
 
+/// The MRI slice that the elastogram asks nearest to this one (elastography/roi_mapping.h); empty where it is this one,
+/// or where that holds no outline: then the nearest that does may count.
+std::optional<int> countsInstead(const session::Session& session, int slice) {
+  const session::OpenImages& images = session.images();
+  if (slice < 0 || !images.mri || !images.stiffness) return std::nullopt;
+  const image::Grid& mri = images.mri->grid;
+  const image::Grid& mre = images.stiffness->values_kPa.grid;
+  const Eigen::Vector3d here = mri.indexToLps({0.5 * mri.size.x(), 0.5 * mri.size.y(), 1.0 * slice});
+  Eigen::Vector3d there = mre.lpsToIndex(here);
+  there.z() = std::round(there.z());
+  if (there.z() < 0.0 || there.z() >= mre.size.z()) return std::nullopt;
+  const auto counting = static_cast<int>(std::lround(mri.lpsToIndex(mre.indexToLps(there)).z()));
+  if (counting == slice) return std::nullopt;
+  const session::OutlineCoverage c = session.coverage();
+  if (!c.drawn.contains(counting) && !c.interpolated.contains(counting) && !c.empty.contains(counting))
+    return std::nullopt;
+  return counting;
+}
+
 }  // namespace
 
 OutlinePanel::OutlinePanel(session::Session& session, const Keys& keys, QWidget* parent)
@@ -211,6 +230,9 @@ void OutlinePanel::showStatistics() {
   readout_->setText(tr("%1 ± %2 kPa").arg(kPa(all.mean_kPa), kPa(all.sd_kPa)));
   QString text = tr("All slices: ") + line(all);
   if (live.slice) text += QStringLiteral("\n") + tr("This slice: ") + line(*live.slice);
+  if (const std::optional<int> other = countsInstead(session_, slice_))
+    text +=
+        QLatin1Char('\n') + tr("This slice lies between elastography slices; slice %1 counts there.").arg(*other + 1);
   pooled_->setText(text);
 }
 

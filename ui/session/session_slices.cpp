@@ -1,5 +1,6 @@
 // Marks of slices, what is still to be done, copies to other slices, and a second reader.
 #include <algorithm>
+#include <iterator>
 
 #include "base/error.h"
 #include "commands/change_mark.h"
@@ -11,10 +12,37 @@
 #include "roi/contour_io.h"
 #include "session/imported_roi.h"
 #include "session/session.h"
+#include "tools/outline.h"
 
 namespace glisson::session {
 
 using commands::SliceMark;
+
+namespace {
+
+/// Whether one outline of this slice lies inside another.
+bool liesIn(const roi::Polygon& one, const roi::Polygon& other, const tools::SlicePlane& plane) {
+  const auto flat = [&plane](const roi::Polygon& p) {
+    tools::Outline outline(2, p.points_lps_mm.cols());
+    for (Eigen::Index i = 0; i < outline.cols(); ++i) outline.col(i) = plane.toPlane_mm(p.points_lps_mm.col(i));
+    return outline;
+  };
+  const tools::Outline inner = flat(one), outer = flat(other);
+  for (Eigen::Index i = 0; i < inner.cols(); ++i)
+    if (!tools::inside(inner.col(i), outer)) return false;
+  return true;
+}
+
+/// In how many regions of its slice an outline lies: a hole in an odd number of them.
+int depthOf(const std::vector<roi::Polygon>& polygons, std::size_t index, const tools::SlicePlane& plane) {
+  int depth = 0;
+  for (std::size_t p = 0; p < polygons.size(); ++p)
+    depth +=
+        p != index && !polygons[p].exclude && plane.holds(polygons[p]) && liesIn(polygons[index], polygons[p], plane);
+  return depth;
+}
+
+}  // namespace
 
 Eigen::Vector3d Session::middleOf(int slice) const {
   const image::Grid& grid = images_.mri->grid;
@@ -72,8 +100,22 @@ void Session::copyOutlines() {
   if (!plane_) return;
   std::vector<roi::Polygon> copied;
   const std::optional<std::size_t> selected = tool_.selected();
-  for (std::size_t p = 0; p < contours_.polygons.size(); ++p)
-    if (selected ? p == *selected : plane_->holds(contours_.polygons[p])) copied.push_back(contours_.polygons[p]);
+  const auto& there = contours_.polygons;
+  if (selected && *selected < there.size()) {
+    // A hole stays one wherever it is put, and a region takes its own along: left out, not by lying in each other.
+    const int depth = depthOf(there, *selected, *plane_);
+    copied.push_back(there[*selected]);
+    if (depth % 2 == 1) copied.front().exclude = true;
+    for (std::size_t p = 0; p < there.size() && !copied.front().exclude; ++p) {
+      if (p == *selected || !plane_->holds(there[p]) || !liesIn(there[p], there[*selected], *plane_)) continue;
+      if (!there[p].exclude && depthOf(there, p, *plane_) != depth + 1) continue;
+      copied.push_back(there[p]);
+      copied.back().exclude = true;
+    }
+  } else {
+    std::copy_if(there.begin(), there.end(), std::back_inserter(copied),
+                 [this](const roi::Polygon& p) { return plane_->holds(p); });
+  }
   if (copied.empty()) {
     emit message(tr("There is no outline on this slice to copy."));
     return;
@@ -88,8 +130,9 @@ void Session::pasteOutlines() {
     return;
   }
   apply(tool_.leaveSlice(*plane_));
+  const std::size_t first = contours_.polygons.size();
   paste({plane_->slice}, roi::PolygonState::Draft, "paste outline");
-  tool_.selectPolygon(contours_.polygons.size() - 1);
+  tool_.selectPolygon(first);
   tool_.selectAll(*plane_);
   toolMoved();
 }
@@ -126,7 +169,9 @@ void Session::paste(const std::vector<int>& slices, roi::PolygonState state, con
       const double along = k - grid.lpsToIndex(copy.points_lps_mm.rowwise().mean()).z();
       const Eigen::Vector3d shift = grid.direction.col(2) * (grid.spacing_mm.z() * along);
       copy.points_lps_mm.colwise() += shift;
-      copy.state = state;
+      // What a region leaves out is settled with it: only the region itself is to be adjusted and accepted.
+      const bool goesAlong = copy.exclude && !clipboard_.front().exclude;
+      copy.state = goesAlong && state == roi::PolygonState::Draft ? roi::PolygonState::Accepted : state;
       copy.sopInstanceUid = static_cast<std::size_t>(k) < sops.size() ? sops[static_cast<std::size_t>(k)] : "";
       after.polygons.push_back(std::move(copy));
     }
