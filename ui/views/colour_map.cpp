@@ -48,9 +48,9 @@ const std::array<QRgb, 256>& waveColours() {
     std::array<QRgb, 256> c{};
     for (int i = 0; i < 256; ++i) {
       const double t = (i - 127.5) / 127.5, away = std::abs(t);
-      const auto fade = [&](int end) { return static_cast<int>(std::lround(240.0 + away * (end - 240.0))); };
+      const auto fade = [&](int end) { return static_cast<int>(std::lround(26.0 + away * (end - 26.0))); };
       c[static_cast<std::size_t>(i)] =
-          t < 0.0 ? qRgb(fade(28), fade(70), fade(190)) : qRgb(fade(196), fade(38), fade(40));
+          t < 0.0 ? qRgb(fade(90), fade(170), fade(255)) : qRgb(fade(255), fade(120), fade(70));
     }
     return c;
   }();

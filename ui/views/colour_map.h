@@ -9,7 +9,7 @@ namespace glisson::views {
 /// once, in the order radiologists know from elastograms.
 const std::array<QRgb, 256>& stiffnessColours();
 
-/// Blue below the middle, white in it, red above: for a wave around 0.
+/// Blue below the middle, dark in it, red above: for a wave around 0, which is dark outside the body as well.
 const std::array<QRgb, 256>& waveColours();
 
 /// Grey levels.
