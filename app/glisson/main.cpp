@@ -2,8 +2,10 @@
 #include <QCommandLineParser>
 #include <QLocale>
 #include <QTimer>
+#include <algorithm>
 #include <array>
 #include <iostream>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -26,18 +28,21 @@ std::vector<Step> stepsNamed(const QString& name) {
   return {};
 }
 
+/// Help and version need no display.
+bool asksAboutTheProgram(int argc, char** argv) {
+  constexpr std::array<std::string_view, 6> words = {"-h", "--help", "--help-all", "-?", "-v", "--version"};
+  return std::any_of(argv + 1, argv + argc,
+                     [&](const char* given) { return std::find(words.begin(), words.end(), given) != words.end(); });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  QApplication app(argc, argv);
   QApplication::setApplicationName(QStringLiteral("glisson"));
   QApplication::setOrganizationName(QStringLiteral("glisson"));  // where settings lie
   QApplication::setApplicationDisplayName(QStringLiteral("Glisson"));
   QApplication::setApplicationVersion(QString::fromStdString(glisson::version()));
   QApplication::setDesktopFileName(QStringLiteral("glisson"));
-  const QLocale system = QLocale::system();
-  // Numbers are shown and typed with a point everywhere, as in the scene files.
-  QLocale::setDefault(QLocale::c());
 
   QCommandLineParser parser;
   parser.setApplicationDescription(QStringLiteral("Patient-specific biomechanics of the liver.\n") +
@@ -66,6 +71,14 @@ int main(int argc, char** argv) {
   const QCommandLineOption language(QStringLiteral("language"),
                                     QStringLiteral("en or de; otherwise that of the desktop."), QStringLiteral("code"));
   parser.addOptions({synthetic, theme, language, screenshot, step, slice, outlines, run});
+  if (asksAboutTheProgram(argc, argv)) {
+    const QCoreApplication withoutDisplay(argc, argv);
+    parser.process(withoutDisplay);  // answers and ends
+  }
+  const QApplication app(argc, argv);
+  const QLocale system = QLocale::system();
+  // Numbers are shown and typed with a point everywhere, as in the scene files.
+  QLocale::setDefault(QLocale::c());
   parser.process(app);
   const std::vector<Step> wantedSteps = stepsNamed(parser.value(step));
   const auto wantedTheme = glisson::panels::themeNamed(parser.value(theme));
