@@ -123,22 +123,26 @@ class Loading : public QObject, private glisson::test::WindowBench {
     open(path("journals"));
   }
 
-  void whyNothingWasOpenedIsOnThePageAndInTheStatusLine() {
+  void whyNothingWasOpenedIsOnThePageOnce() {
+    QSettings().remove("recent");
     const auto nothing = folder() / "empty";
     std::filesystem::create_directories(nothing);
     QVERIFY(!find<QWidget>("loadNotice")->isVisible());
-    QVERIFY(opened(nothing));
+    QSignalSpy tried(&session(), &Session::workEnded);
+    session().openPath(QString::fromStdString(nothing.string()));
+    QVERIFY(tried.wait(wait_ms));
     const QString reason = session().status(Step::Load).detail;
     QCOMPARE(session().status(Step::Load).state, StepState::Failed);
     QVERIFY(find<QWidget>("loadNotice")->isVisible());
     QVERIFY(find<QLabel>("loadNoticeText")->text().contains(reason));
-    QVERIFY(window().statusBar()->currentMessage().contains(reason));
+    QVERIFY2(reason.contains("no DICOM series"), qPrintable(reason));
+    QVERIFY(window().statusBar()->currentMessage().isEmpty());
+    QVERIFY(QSettings().value("recent").toStringList().isEmpty());
     // One that is not there at all; what is open stays.
     QSignalSpy ended(&session(), &Session::workEnded);
     session().openPath(path("not-there"));
     QVERIFY(ended.wait(wait_ms));
     QVERIFY(find<QLabel>("loadNoticeText")->text().contains(session().status(Step::Load).detail));
-    QVERIFY(window().statusBar()->currentMessage().contains(session().status(Step::Load).detail));
   }
 
   void outlinesOnASeriesChosenByHandAreInTheirOwnJournal() {
@@ -320,6 +324,12 @@ class Loading : public QObject, private glisson::test::WindowBench {
     const auto drawn = session().contours();
     QVERIFY(answering("replaceBox", "Cancel", [&] { window().importFrom(file); }));
     QVERIFY(glisson::test::same(session().contours(), drawn));
+    // Another patient's are refused before anything is asked.
+    const QString others = QString::fromStdString((second_ / "rtstruct.dcm").string());
+    QString refusal;
+    QVERIFY(!answering(
+        "replaceBox", "yesButton", [&] { window().importFrom(others); }, &refusal));
+    QVERIFY2(refusal.contains("another patient"), qPrintable(refusal));
     QVERIFY(answering("replaceBox", "yesButton", [&] { window().importFrom(file); }));
     QVERIFY(session().acceptedCount() > 3);
     session().undo();

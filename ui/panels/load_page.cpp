@@ -71,6 +71,7 @@ LoadPage::LoadPage(session::Session& session, QWidget* parent)
   stack_->addWidget(makeWelcome());
   stack_->addWidget(makeTable());
   connect(&session_, &session::Session::loaded, this, &LoadPage::fill);
+  connect(&session_, &session::Session::workStarted, this, [this] { correcting_ = false; });
 }
 
 QWidget* LoadPage::makeWelcome() {
@@ -132,6 +133,10 @@ QWidget* LoadPage::makeTable() {
       button("openAnotherButton", tr("Open another…"), QStringLiteral("load"), tr("Open another folder (Ctrl+O)"));
   head->addWidget(another, 0, Qt::AlignTop);
   connect(another, &QPushButton::clicked, this, &LoadPage::openWanted);
+  next_ = button("toSegmentButton", tr("Outline the liver"), {}, tr("Goes on with the series in use"));
+  next_->setProperty("primary", true);
+  head->addWidget(next_, 0, Qt::AlignTop);
+  connect(next_, &QPushButton::clicked, this, &LoadPage::segmentWanted);
   layout->addLayout(head);
   table_->setObjectName(QStringLiteral("seriesTable"));
   table_->setColumnCount(7);
@@ -178,20 +183,33 @@ void LoadPage::showNotice() {
 void LoadPage::fill() {
   const dicom::ScanResult& scan = session_.scan();
   stack_->setCurrentIndex(1);
-  summary_->setText(tr("%1 series, %2 files left out. Correct a role where the guess is wrong.")
+  summary_->setText(tr("%1 series, %2 files left out. ✓: in use. Correct a role where the guess is wrong.")
                         .arg(static_cast<qulonglong>(scan.series.size()))
                         .arg(static_cast<qulonglong>(scan.skipped.size())));
+  const session::OpenImages& images = session_.images();
+  next_->setEnabled(images.mri != nullptr);
   table_->setRowCount(static_cast<int>(scan.series.size()));
   for (int row = 0; row < table_->rowCount(); ++row) {
     const dicom::Series& s = scan.series[static_cast<std::size_t>(row)];
-    table_->setItem(row, 0, cell(QString::number(s.number)));
+    const bool drawnOn = images.mri && row == images.mriSeries;
+    const bool measured = images.stiffness && row == images.stiffnessSeries;
+    const QString use =
+        drawnOn ? tr("In use: the MRI that is drawn on") : tr("In use: the elastogram that is measured");
+    const bool used = drawnOn || measured;
+    table_->setItem(
+        row, 0, cell((used ? QStringLiteral("✓ ") : QString()) + QString::number(s.number), used ? use : QString()));
     table_->setItem(row, 1, cell(QString::fromStdString(s.description)));
+    QFont bold = table_->font();
+    bold.setBold(used);
+    for (const int column : {0, 1}) table_->item(row, column)->setFont(bold);
     auto* role = new QComboBox;
     for (const SeriesRole r : roles) role->addItem(QString::fromStdString(dicom::name(r)), static_cast<int>(r));
     role->setCurrentIndex(role->findData(static_cast<int>(s.role)));
     role->setEnabled(!s.error);
-    connect(role, &QComboBox::activated, this,
-            [this, role, row] { session_.setRole(row, static_cast<SeriesRole>(role->currentData().toInt())); });
+    connect(role, &QComboBox::activated, this, [this, role, row] {
+      session_.setRole(row, static_cast<SeriesRole>(role->currentData().toInt()));
+      correcting_ = session_.busy();
+    });
     auto* place = new QWidget;  // else the control would be as high as the thumbnail
     auto* middle = new QHBoxLayout(place);
     middle->setContentsMargins(4, 0, 4, 0);

@@ -22,10 +22,12 @@ class LoadPage : public QWidget {
   Q_OBJECT
  public:
   explicit LoadPage(session::Session& session, QWidget* parent = nullptr);
+  bool correcting() const { return correcting_; }  ///< a role was corrected here: the reader goes on when ready
 
  signals:
   void openWanted();
   void syntheticWanted();
+  void segmentWanted();                  ///< the roles are right: on to the outlines
   void pathWanted(const QString& path);  ///< a recent one
   void answerWanted();                   ///< to what the session wants to know about the elastogram
 
@@ -41,7 +43,8 @@ class LoadPage : public QWidget {
   QTreeWidget* skipped_;
   QLabel *summary_, *noticeText_;
   QFrame* notice_;
-  QPushButton* answer_;
+  QPushButton *answer_, *next_ = nullptr;
+  bool correcting_ = false;
   session::Worker painter_;  ///< of thumbnails
 };
 

@@ -9,10 +9,12 @@
 #include <QSettings>
 #include <QStatusBar>
 
+#include "base/error.h"
 #include "panels/compare_page.h"
 #include "panels/form.h"
 #include "panels/load_page.h"
 #include "panels/main_window.h"
+#include "session/imported_roi.h"
 
 namespace glisson::panels {
 
@@ -45,7 +47,17 @@ void MainWindow::importOutlines() {
 }
 
 void MainWindow::importFrom(const QString& file) {
-  if (!mayReplaceOutlines()) return;
+  // What cannot be taken is refused before anything is asked.
+  bool fits = false;
+  attempt(tr("Import outlines"), [&] {
+    const int mri = session_.images().mriSeries;
+    if (mri < 0) throw BadInput("open images first; outlines belong to an image series");
+    const session::Belonging where = session::belongs(pipeline::loadRoi(file.toStdString(), {}, 0),
+                                                      session_.scan().series[static_cast<std::size_t>(mri)]);
+    if (!where.refusal.isEmpty()) throw BadInput(where.refusal.toStdString());
+    fits = true;
+  });
+  if (!fits || !mayReplaceOutlines()) return;
   attempt(tr("Import outlines"), [&] {
     session_.importContours(file, [this](const QString& doubt) {
       return confirmed("otherFrameBox", tr("Import outlines"), doubt,
@@ -100,7 +112,7 @@ void MainWindow::exportResults() {
 }
 
 void MainWindow::remember(const QString& path) {
-  if (path.isEmpty()) return;
+  if (path.isEmpty() || !session_.images().mri) return;  // what could not be opened is not offered again
   QSettings settings;
   QStringList all = settings.value(recentKey).toStringList();
   all.removeAll(path);

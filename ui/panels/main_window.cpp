@@ -115,6 +115,7 @@ void MainWindow::connectSession() {
   connect(load_, &LoadPage::openWanted, this, &MainWindow::openFolder);
   connect(load_, &LoadPage::syntheticWanted, this, &MainWindow::openSynthetic);
   connect(load_, &LoadPage::pathWanted, this, &MainWindow::openPath);
+  connect(load_, &LoadPage::segmentWanted, this, [this] { showStep(Step::Segment); });
   connect(segment_, &SegmentPage::importWanted, this, &MainWindow::importOutlines);
   connect(segment_, &SegmentPage::helpWanted, this, &MainWindow::showKeys);
   connect(segment_, &SegmentPage::secondReaderWanted, this, &MainWindow::loadSecondReader);
@@ -163,7 +164,7 @@ void MainWindow::connectSession() {
   connect(&session_, &Session::loaded, this, [this] {
     const QString folder = session_.caseFolder();
     remember(folder.isEmpty() ? session_.path() : folder + QStringLiteral("/case.json"));
-    if (session_.images().mri && step() == Step::Load) showStep(Step::Segment);
+    if (session_.images().mri && step() == Step::Load && !load_->correcting()) showStep(Step::Segment);
   });
   connect(&session_, &Session::asked, this, &MainWindow::askAboutImages);
   connect(load_, &LoadPage::answerWanted, this, &MainWindow::askAboutImages);

@@ -85,6 +85,10 @@ void Session::startLoad(std::function<Wanted(const Progress&)> prepare, const QS
       [opened, prepare](const Progress& progress) {
         opened->wanted = prepare(progress.part(0.0, 0.5));
         opened->scan = dicom::scan(opened->wanted.path, progress.part(0.5, 0.7));
+        if (opened->scan.series.empty())
+          throw BadInput(tr("There is no DICOM series, volume or case here; choose a DICOM folder, DICOMDIR, ZIP "
+                            "archive or case.json.")
+                             .toStdString());
         opened->guessed = opened->scan;
         // What a journal holds is newer than its case.
         const Wanted& wanted = opened->wanted;
@@ -104,12 +108,21 @@ void Session::startLoad(std::function<Wanted(const Progress&)> prepare, const QS
         ended(Work::Load, failure);
         if (failure) {
           lockAgain();
+          emit message({});  // the Load page says why, once
           return;
         }
         failure_[static_cast<std::size_t>(Step::Load)] = QString::fromStdString(opened->failure);
         emit contoursChanged();
         emit parametersChanged();
         tellImages();
+        if (opened->wanted.journalled && images_.mri) {
+          // Where the reader was: the outline in work comes last, then what was drawn last.
+          const auto& all = contours_.polygons;
+          const auto last = std::find_if(all.rbegin(), all.rend(), [](const roi::Polygon& p) {
+            return p.points_lps_mm.cols() > 0 && p.state != roi::PolygonState::Interpolated;
+          });
+          if (last != all.rend()) emit pointWanted(last->points_lps_mm.rowwise().mean());
+        }
       });
   emit workStarted(what);
   emit statusChanged();
