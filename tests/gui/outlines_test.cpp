@@ -1,0 +1,100 @@
+// What is told about outlines while they are drawn and accepted, and what copies of them hold.
+#include <QLabel>
+#include <QStatusBar>
+
+#include "window_bench.h"
+
+class Outlines : public QObject, private glisson::test::WindowBench {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase() { QVERIFY(openSynthetic()); }
+
+  void aHoleStaysLeftOutWhereverItIsPasted() {
+    clean();
+    const int here = mri()->slice();
+    square(160, 160, 160);
+    QTest::keyClick(mri(), Qt::Key_Return);
+    const auto hole = [this] {
+      QTest::mouseClick(mri(), Qt::LeftButton, Qt::ShiftModifier, {220, 220});
+      for (const QPoint at : {QPoint(260, 220), QPoint(260, 260), QPoint(220, 260)})
+        QTest::mouseClick(mri(), Qt::LeftButton, {}, at);
+      QTest::keyClick(mri(), Qt::Key_Return);
+      QTest::keyClick(mri(), Qt::Key_Return);
+    };
+    hole();
+    QCOMPARE(polygons().size(), std::size_t{2});
+    session().copyOutlines();
+    mri()->setSlice(here + 1);
+    session().pasteOutlines();
+    QVERIFY(polygons().back().exclude);
+    session().undo();
+    // The region takes its hole along, and one Enter accepts both.
+    mri()->setSlice(here);
+    session().tool().selectPolygon(0);
+    session().copyOutlines();
+    mri()->setSlice(here + 1);
+    session().pasteOutlines();
+    QCOMPARE(polygons().size(), std::size_t{4});
+    QCOMPARE(session().tool().selected(), std::optional<std::size_t>(2));
+    QVERIFY(!polygons()[2].exclude && polygons()[3].exclude);
+    QTest::keyClick(mri(), Qt::Key_Return);
+    QCOMPARE(session().acceptedCount(), std::size_t{4});
+    clean();
+    mri()->setSlice(here);
+  }
+
+  void aSliceBetweenThoseOfTheElastogramSaysWhichOneCounts() {
+    clean();
+    const int here = mri()->slice();
+    const QPoint at = pixelOf(glisson::test::trustedPlace(session()));
+    for (const int slice : {here, here + 1}) {
+      mri()->setSlice(slice);
+      square(at.x() - 40, at.y() - 40, 80);
+      QTest::keyClick(mri(), Qt::Key_Return);
+    }
+    const QString note = QStringLiteral("slice %1 counts there").arg(here + 1);
+    QTRY_VERIFY(find<QLabel>("liveReadout")->text().contains(note));
+    mri()->setSlice(here);
+    QTRY_VERIFY(!find<QLabel>("liveReadout")->text().contains("counts there"));
+    clean();
+  }
+
+  void theStatusLineSaysWhatHappenedLast() {
+    clean();
+    const auto said = [this] { return window().statusBar()->currentMessage(); };
+    square(160, 160, 120);
+    QVERIFY2(said().startsWith("Closed."), qPrintable(said()));
+    QTest::keyClick(mri(), Qt::Key_Return);
+    QCOMPARE(said(), QStringLiteral("Accepted."));
+    session().undo();
+    QVERIFY2(said().startsWith("Undone"), qPrintable(said()));
+    session().undo();
+    for (const QPoint at : {QPoint(160, 160), QPoint(260, 260), QPoint(260, 160), QPoint(160, 260)})
+      QTest::mouseClick(mri(), Qt::LeftButton, {}, at);
+    QTest::keyClick(mri(), Qt::Key_Return);
+    QVERIFY2(said().contains("crosses itself"), qPrintable(said()));
+    QTest::keyClick(mri(), Qt::Key_Return);
+    QCOMPARE(said(), QStringLiteral("Accepted."));
+    QTest::keyClick(mri(), Qt::Key_Delete);
+    QVERIFY2(!said().contains("Accepted"), qPrintable(said()));
+    clean();
+    const int here = mri()->slice();
+    for (const int slice : {here, here + 2}) {
+      mri()->setSlice(slice);
+      square(160, 160, 120);
+      QTest::keyClick(mri(), Qt::Key_Return);
+    }
+    session().interpolateOutlines();
+    QTRY_VERIFY2(said().contains("interpolated between"), qPrintable(said()));
+    session().acceptInterpolated();
+    QCOMPARE(said(), QStringLiteral("Interpolated outlines accepted: 1."));
+    clean();
+    mri()->setSlice(here);
+  }
+
+  void cleanupTestCase() { close(); }
+};
+
+QTEST_MAIN(Outlines)
+#include "outlines_test.moc"
