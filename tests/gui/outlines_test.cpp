@@ -1,6 +1,8 @@
 // What is told about outlines while they are drawn and accepted, and what copies of them hold.
+#include <QComboBox>
 #include <QLabel>
 #include <QStatusBar>
+#include <QTableWidget>
 
 #include "window_bench.h"
 
@@ -91,6 +93,25 @@ class Outlines : public QObject, private glisson::test::WindowBench {
     QCOMPARE(said(), QStringLiteral("Interpolated outlines accepted: 1."));
     clean();
     mri()->setSlice(here);
+  }
+
+  void aCorrectedRoleStaysOnItsPageWhichMarksWhatIsInUse() {
+    using glisson::session::Step;
+    window().showStep(Step::Load);
+    auto* table = find<QTableWidget>("seriesTable");
+    const int mri = session().images().mriSeries, map = session().images().stiffnessSeries;
+    for (int row = 0; row < table->rowCount(); ++row)
+      QCOMPARE(table->item(row, 0)->text().startsWith(QStringLiteral("✓")), row == mri || row == map);
+    auto* role = table->cellWidget(map, 2)->findChild<QComboBox*>();
+    QVERIFY(role);
+    QSignalSpy loaded(&session(), &glisson::session::Session::loaded);
+    role->setCurrentIndex(role->findData(static_cast<int>(glisson::dicom::SeriesRole::Other)));
+    emit role->activated(role->currentIndex());
+    QVERIFY(loaded.wait(glisson::test::wait_ms));
+    QVERIFY(!session().images().stiffness && find<QWidget>("toSegmentButton")->isVisible());
+    QVERIFY(!table->item(map, 0)->text().startsWith(QStringLiteral("✓")));
+    click("toSegmentButton");
+    QVERIFY(this->mri()->isVisible());
   }
 
   void cleanupTestCase() { close(); }
