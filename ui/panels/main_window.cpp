@@ -8,6 +8,7 @@
 #include <QMessageBox>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QScreen>
 #include <QSettings>
 #include <QStackedWidget>
 #include <QStatusBar>
@@ -54,10 +55,10 @@ MainWindow::MainWindow(QWidget* parent)
       cancel_(new QPushButton(tr("Cancel"))) {
   setObjectName(QStringLiteral("mainWindow"));
   keepWheelForScrolling();
-  setWindowTitle(tr("Glisson[*] – %1").arg(tr(researchUseOnly)));
+  setWindowTitle(QStringLiteral("%1[*]").arg(tr(researchUseOnly)));  // the desktop adds the name
   setWindowIcon(icon(QStringLiteral("glisson")));
   setAcceptDrops(true);
-  resize(1480, 900);
+  resize(QSize(1480, 900).boundedTo(screen()->availableSize()));
   for (QWidget* page : {static_cast<QWidget*>(load_), static_cast<QWidget*>(segment_), static_cast<QWidget*>(model_),
                         static_cast<QWidget*>(retract_), static_cast<QWidget*>(compare_)})
     pages_->addWidget(page);
@@ -188,7 +189,7 @@ void MainWindow::updateStatus() {
   importAction_->setEnabled(open);
   saveAction_->setEnabled(open);
   saveAsAction_->setEnabled(open);
-  runAction_->setEnabled(session_.acceptedCount() > 0 && !session_.busy());
+  runAction_->setEnabled(open && !session_.busy());
   const session::OutlineCoverage outlines = session_.coverage();
   interpolateAction_->setEnabled(outlines.drawn.size() > 1 &&
                                  outlines.empty.size() + outlines.interpolated.size() > 0 && !session_.busy());
@@ -237,6 +238,11 @@ void MainWindow::attempt(const QString& title, const std::function<void()>& work
 }
 
 void MainWindow::run() {
+  if (session_.acceptedCount() == 0) {
+    showStep(Step::Segment);
+    statusBar()->showMessage(tr("Outline the liver first: there is nothing to retract."));
+    return;
+  }
   if (step() == Step::Load || step() == Step::Segment) showStep(Step::Retract);
   session_.run();
 }

@@ -62,7 +62,9 @@ QString styleSheet(const Colours& c) {
     QComboBox:hover, QComboBox:focus { border-color: %accent; } QComboBox:disabled { color: %faint; }
     QComboBox::drop-down { border: none; width: 22px; } QComboBox::down-arrow { image: url(:/icons/chevron.svg); width: 12px; }
     QTableWidget::item { padding: 2px 8px; }
-    QComboBox QAbstractItemView { background: %raised; border: 1px solid %border; selection-background-color: %accent; }
+    QComboBox QAbstractItemView { background: %raised; border: 1px solid %border; selection-background-color: %accent;
+      selection-color: %accentText; outline: none; }
+    QComboBox QAbstractItemView::item:selected { background: %accent; color: %accentText; }
     QTableWidget, QTreeWidget, QListWidget, QPlainTextEdit, QTextBrowser { background: %base; border: 1px solid %border;
       border-radius: 6px; alternate-background-color: %window; }
     QHeaderView::section { background: %window; color: %faint; border: none; border-bottom: 1px solid %border; padding: 5px; }
