@@ -115,15 +115,23 @@ TEST(Together, differencesAreNamedByKindWithoutRefusing) {
   EXPECT_EQ(found.front().in, Difference::In::Frame);
 }
 
-TEST(Together, aSceneKeepsWhatABareElastogramIs) {
-  const test::TemporaryFolder folder;
-  for (const char* name : {"mri", "mre", "roi"}) std::filesystem::create_directory(folder / name);
-  const auto scene = [&folder](const std::string& more) {
+/// The folders that a patient's scene names.
+struct PatientFolder : test::TemporaryFolder {
+  PatientFolder() {
+    for (const char* name : {"mri", "mre", "roi"}) std::filesystem::create_directory(*this / name);
+  }
+  /// more: keys of its geometry, each with a comma before it.
+  Scene scene(const std::string& more) const {
     return parseScene(
         R"({"schema":"glisson/scene/1","geometry":{"kind":"patient","mri":"mri","mre":"mre","roi":"roi")" + more +
             R"(},"material":"mre","supports":[],"loads":[]})",
-        folder.path());
-  };
+        path());
+  }
+};
+
+TEST(Together, aSceneKeepsWhatABareElastogramIs) {
+  const PatientFolder folder;
+  const auto scene = [&folder](const std::string& more) { return folder.scene(more); };
   EXPECT_FALSE(scene("").geometry.mreQuantity || scene("").geometry.mreUnit);
   const Scene again = parseScene(toJson(scene(R"(,"mre_quantity":"youngs","mre_unit":"0.01kPa")")), folder.path());
   EXPECT_EQ(again.geometry.mreQuantity, StiffnessQuantity::Youngs);
@@ -138,14 +146,8 @@ TEST(Together, aRoleMustBeOfASeriesThatIsThere) {
 }
 
 TEST(Together, aSceneKeepsRolesAndOverride) {
-  const test::TemporaryFolder folder;
-  for (const char* name : {"mri", "mre", "roi"}) std::filesystem::create_directory(folder / name);
-  const auto scene = [&folder](const std::string& more) {
-    return parseScene(
-        R"({"schema":"glisson/scene/1","geometry":{"kind":"patient","mri":"mri","mre":"mre","roi":"roi")" + more +
-            R"(},"material":"mre","supports":[],"loads":[]})",
-        folder.path());
-  };
+  const PatientFolder folder;
+  const auto scene = [&folder](const std::string& more) { return folder.scene(more); };
   EXPECT_FALSE(scene("").geometry.overrideChecks);
   const Scene given = scene(R"(,"override":true,"roles":{"1.2.3":"stiffness","401":"phase"})");
   EXPECT_TRUE(given.geometry.overrideChecks);
