@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "mechanics/row_sweep.h"
 
 namespace glisson::mechanics {
 
@@ -10,9 +11,6 @@ template <class T>
 void LatticeOperator<T>::applyCells(const T* x, T* y) const {
   const RowLattice& L = *lattice;
   const std::size_t n = L.nodeSlots();
-  const int layers = L.cells().z();
-  const int perChunk = L.layersPerChunk();
-  const int chunks = (layers + perChunk - 1) / perChunk;
   const auto clear = [&](int from, int to) {  // node layers [from, to)
     const std::size_t a = L.layerBegin(from);
     const std::size_t b = L.layerBegin(to);
@@ -36,17 +34,7 @@ void LatticeOperator<T>::applyCells(const T* x, T* y) const {
       addRow(task, blocks);
     }
   };
-  // Neighbouring chunks share a node layer: even chunks first, then odd ones. Each clears the layers it is first to
-  // see.
-  for (int colour = 0; colour < 2; ++colour)
-    parallelChunks(static_cast<std::size_t>((chunks + 1 - colour) / 2), 1, [&](std::size_t t, std::size_t) {
-      const int chunk = 2 * static_cast<int>(t) + colour;
-      const int from = chunk * perChunk;
-      const int to = std::min(layers, from + perChunk);
-      const bool last = chunk == chunks - 1;
-      clear(colour == 0 ? from : from + 1, colour == 0 || last ? to + 1 : to);
-      for (int k = from; k < to; ++k) addLayer(k);
-    });
+  sweepLayers(L, clear, addLayer);
 }
 
 template <class T>

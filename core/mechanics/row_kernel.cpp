@@ -1,44 +1,11 @@
 #include "mechanics/row_kernel.h"
 
-#include <cstring>
 #include <utility>
+
+#include "mechanics/vector_lanes.h"
 
 namespace glisson::mechanics {
 namespace {
-
-#define GLISSON_INLINE inline __attribute__((always_inline))
-
-/// Bytes per vector register, as a type of the compiler's own vector extension.
-template <class T, int Bytes>
-struct VectorOf {
-  typedef T type __attribute__((vector_size(Bytes), aligned(alignof(T)), may_alias));
-};
-
-/// (last lane of previous, lanes 0 .. W − 2 of current).
-template <class V, std::size_t... lane>
-GLISSON_INLINE void shiftIn(const V& previous, const V& current, V& shifted, std::index_sequence<lane...>) {
-  shifted = __builtin_shufflevector(previous, current, static_cast<int>(sizeof...(lane) - 1 + lane)...);
-}
-
-/// Sum and difference of two values, in place.
-template <class V>
-GLISSON_INLINE void butterfly(V& a, V& b) {
-  const V sum = a + b;
-  b = a - b;
-  a = sum;
-}
-
-/// Walsh-Hadamard along axes y and z over w[mx][row], row = y + 2 z.
-template <class V>
-GLISSON_INLINE void transformRows(V (&w)[2][4][3]) {
-  for (int m = 0; m < 2; ++m)
-    for (int c = 0; c < 3; ++c) {
-      butterfly(w[m][0][c], w[m][1][c]);
-      butterfly(w[m][2][c], w[m][3][c]);
-      butterfly(w[m][0][c], w[m][2][c]);
-      butterfly(w[m][1][c], w[m][3][c]);
-    }
-}
 
 template <class T, int Bytes, bool WithMass>
 GLISSON_INLINE void addRowOf(const RowTask<T>& task, const RowBlocks<T>& blocks) {
@@ -129,12 +96,14 @@ __attribute__((target("arch=x86-64-v4,prefer-vector-width=512"))) void addRowAvx
 template <class T>
 auto fastestRow() {
 #if defined(__x86_64__)
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd"))
-    return &addRowAvx512<T>;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
-    return &addRowAvx2<T>;
+  switch (instructionSet()) {
+    case InstructionSet::Avx512:
+      return &addRowAvx512<T>;
+    case InstructionSet::Avx2:
+      return &addRowAvx2<T>;
+    default:
+      break;
+  }
 #endif
   return &addRowPortable<T>;
 }

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "mechanics/contact/barrier.h"
+#include "mechanics/contact/contact_solve.h"
+#include "mechanics/contact/solid_hierarchy.h"
+
+namespace glisson::mechanics {
+
+/// Potential of body, bar and loads on one level of a hierarchy:
+/// Π(u, s) = Σ cells + springs + Σ w φ(g(x_p, s)) − f·u − F s, and its derivatives.
+class ContactEnergy {
+ public:
+  /// surface: the samples that the hierarchy carries, in its order.
+  ContactEnergy(const SolidHierarchy& hierarchy, std::vector<SurfaceSample> surface, const ContactProblem& problem,
+                const ContactOptions& options);
+
+  /// A state of level `top`: displacements (3 nodes, m) and travel (m).
+  struct State {
+    std::vector<double> u;
+    double s = 0;
+  };
+  struct Value {
+    double potential = 0;          ///< J
+    std::vector<double> gradient;  ///< size() of the level; the last entry is bar force − F, or 0 where s is given
+    double barForce_N = 0;         ///< along the hoist, on the body
+    double contact_N = 0;          ///< Σ |force| of all samples
+    double loads_N = 0;            ///< ‖f‖ on the free degrees of freedom
+  };
+
+  /// Level, and its dead loads (3 nodes, N; or empty).
+  void setLoads(std::size_t top, const std::vector<double>& loads) {
+    top_ = top;
+    loads_ = loads;
+  }
+  /// False where the law or the contact is not defined (a sample deeper than half the zone).
+  bool evaluate(const State& at, std::optional<double> force_N, bool travels, Value& value) const;
+  /// True where no sample passes through the bar on the straight way from one state to the next.
+  bool passes(const State& from, const State& to) const;
+  std::vector<PointStiffness> stiffness(const State& at) const;
+
+  const RigidBar& bar() const { return *bar_; }
+  bool hasBar() const { return bar_.has_value(); }
+  const Barrier& barrier() const { return barrier_; }
+  std::size_t top() const { return top_; }
+  SolidLaw law() const { return law_; }
+  const std::vector<SurfaceSample>& surface() const { return surface_; }
+  Eigen::Vector3d place(std::size_t sample, const State& at) const;
+
+ private:
+  /// The bar is brought from behind to its first touch.
+  void bringToTouch();
+
+  const SolidHierarchy& hierarchy_;
+  std::vector<SurfaceSample> surface_;
+  SolidLaw law_;
+  std::optional<RigidBar> bar_;
+  Barrier barrier_;
+  std::size_t top_ = 0;
+  std::vector<double> loads_;
+  mutable std::vector<Gap> gaps_;
+};
+
+}  // namespace glisson::mechanics

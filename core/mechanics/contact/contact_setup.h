@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "mechanics/contact/contact_energy.h"
+
+namespace glisson::mechanics {
+
+/// The body's own cells as a level: moduli, clamps and springs.
+SolidLevel finestLevel(const ContactProblem& problem);
+
+/// The samples that a filled cell within three cells can carry, set on all levels of the hierarchy. kept: their indices
+/// in problem.surface.
+std::vector<SurfaceSample> carriedSurface(SolidHierarchy& hierarchy, const ContactProblem& problem,
+                                          std::vector<std::size_t>& kept);
+
+/// Dead loads (3 nodes, N) per level; a coarse level's do the same work on its displacements.
+std::vector<std::vector<double>> loadsOnLevels(const SolidHierarchy& hierarchy, const ContactProblem& problem);
+
+/// Prescribed displacements at the clamps of the finest level, 0 elsewhere, m.
+std::vector<double> prescribedOnFinest(const SolidLevel& level, const ContactProblem& problem);
+
+/// Fills in what the answer at `at` (of the energy's level) shows: displacements and reactions where that level is the
+/// finest, contact figures on any.
+void describe(const SolidHierarchy& hierarchy, const ContactEnergy& energy, const ContactProblem& problem,
+              const std::vector<std::size_t>& kept, const ContactEnergy::State& at, ContactSolution& out);
+
+}  // namespace glisson::mechanics

@@ -1,0 +1,243 @@
+#include "mechanics/contact/contact_solve.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "mechanics/contact/contact_energy.h"
+#include "mechanics/contact/contact_setup.h"
+#include "mechanics/contact/newton.h"
+#include "mechanics/supports.h"
+
+namespace glisson::mechanics {
+namespace {
+
+constexpr double firstStep_m = 4e-3, longestStep_m = 6e-3, shortestStep_m = 1e-4;
+constexpr double pathTolerance = 1e-2;
+constexpr double farthest_m = 0.2;      ///< of travel
+constexpr double slipFall = 0.75;       ///< of the largest force: the bar slips
+constexpr double slipTravel_m = 12e-3;  ///< past the largest force without reaching it again
+constexpr double coarsePathCells = 1.4; ///< largest cells of the path over the bar's radius
+
+using State = ContactEnergy::State;
+
+struct Solver {
+  const ContactProblem& problem;
+  const ContactOptions& options;
+  const Progress& progress;
+  SolidHierarchy hierarchy;
+  std::vector<std::size_t> kept;  ///< samples that cells carry
+  ContactEnergy energy;
+  ContactSolution out;
+  std::vector<std::vector<double>> loads;  ///< per level
+
+  Solver(const ContactProblem& p, const ContactOptions& o, const Progress& pr)
+      : problem(p),
+        options(o),
+        progress(pr),
+        hierarchy(finestLevel(p)),
+        energy(hierarchy, carriedSurface(hierarchy, p, kept), p, o),
+        loads(loadsOnLevels(hierarchy, p)) {}
+
+  void useLevel(std::size_t l) { energy.setLoads(l, loads[l]); }
+  NewtonRun converge(State& state, std::optional<double> force_N, double tolerance, int limit) {
+    const NewtonRun run = minimise(hierarchy, energy, state, {force_N, tolerance, limit}, progress);
+    out.newton += run.iterations;
+    out.inner += run.inner;
+    return run;
+  }
+  double barForce(const State& state) const {
+    ContactEnergy::Value value;
+    energy.evaluate(state, {}, false, value);
+    return value.barForce_N;
+  }
+  bool follow(State& state);
+  bool finish(State& state);
+  bool loadInSteps(State& state);
+  std::size_t pathLevel() const;
+};
+
+/// The coarsest cells that can still follow the bar.
+std::size_t Solver::pathLevel() const {
+  std::size_t l = 0;
+  for (const Fixation& f : problem.problem.supports.fixations)
+    if (!f.value_m.isZero(0)) return 0;
+  while (problem.bar && l + 2 < hierarchy.levels() &&
+         hierarchy.level(l + 1).moduli.h_m.maxCoeff() <= coarsePathCells * problem.bar->radius_m)
+    ++l;
+  return l;
+}
+
+/// Travel in steps from `state` until force or travel is reached (true), or the force falls or no step is possible.
+bool Solver::follow(State& state) {
+  const double goal_N = problem.force_N ? options.proof * *problem.force_N : 0;
+  double step = firstStep_m, last = barForce(state);
+  double best = last, bestAt = state.s;
+  State before = state, reached;
+  bool has = false, extrapolate = false, indefinite = false;
+  out.path.push_back({state.s, last});
+  const auto ended = [&](ContactOutcome outcome, bool exceeded) {
+    out.outcome = outcome;
+    out.capacity_N = std::max(out.capacity_N, best);
+    out.capacityExceeded = exceeded;
+    return outcome == ContactOutcome::Reached;
+  };
+  while (state.s < farthest_m) {
+    double target = state.s + step;
+    if (problem.travel_m && target > *problem.travel_m - 1e-9) target = *problem.travel_m;
+    State trial = state;
+    const double factor = extrapolate && state.s > before.s ? (target - state.s) / (state.s - before.s) : 0;
+    for (std::size_t i = 0; factor > 0 && i < trial.u.size(); ++i) trial.u[i] += factor * (state.u[i] - before.u[i]);
+    trial.s = target;
+    ContactEnergy::Value value;
+    bool good = energy.evaluate(trial, {}, false, value) && energy.passes(state, trial);
+    NewtonRun run;
+    if (good) {
+      run = converge(trial, {}, pathTolerance, 40);
+      good = run.converged;
+      indefinite = indefinite || run.indefinite;
+    }
+    if (!good) {
+      step *= 0.6;
+      if (step < 3e-3) extrapolate = false;
+      if (step < shortestStep_m)
+        return ended(has ? ContactOutcome::Reached : indefinite && best > 0 ? ContactOutcome::Slips : ContactOutcome::Stopped,
+                     !has && indefinite);
+      continue;
+    }
+    const double force = barForce(trial);
+    before = std::move(state);
+    state = std::move(trial);
+    extrapolate = true;
+    out.path.push_back({state.s, force});
+    out.largestDrop_N = std::max(out.largestDrop_N, last - force);
+    last = force;
+    std::ostringstream what;
+    what.precision(3);
+    what << "bar at " << 1e3 * state.s << " mm, " << force << " N";
+    progress.report(0.05 + 0.6 * std::min(1.0, goal_N > 0 ? force / goal_N : state.s / problem.travel_m.value_or(0.1)),
+                    what.str());
+    if (force > best) {
+      best = force;
+      bestAt = state.s;
+    }
+    if (problem.travel_m && state.s >= *problem.travel_m - 1e-9) return ended(ContactOutcome::Reached, force < slipFall * best);
+    if (problem.force_N) {
+      if (!has && force >= *problem.force_N) {
+        has = true;
+        reached = state;
+      }
+      if (force >= goal_N) {
+        state = std::move(reached);
+        return ended(ContactOutcome::Reached, false);
+      }
+      if (force < slipFall * best || state.s > bestAt + slipTravel_m) {
+        if (has) state = std::move(reached);
+        return ended(ContactOutcome::Slips, true);
+      }
+    }
+    step = run.iterations <= 8 ? std::min(1.3 * step, longestStep_m) : step;
+    indefinite = false;
+  }
+  return ended(best > 0 ? ContactOutcome::Slips : ContactOutcome::Stopped, best > 0);
+}
+
+/// From the end of the path to the answer on the finest cells.
+bool Solver::finish(State& state) {
+  for (std::size_t l = energy.top();; --l) {
+    if (l < energy.top()) {
+      State fine;
+      fine.u = hierarchy.prolonged(l, state.u);
+      fine.s = state.s;
+      useLevel(l);
+      state = std::move(fine);
+    }
+    const bool lastLevel = l == 0 || options.pathOnly;
+    const double tolerance = lastLevel ? options.tolerance : std::max(1e-3, options.tolerance);
+    State trial = state;
+    NewtonRun run = converge(trial, problem.force_N, tolerance, 80);
+    if (run.converged && trial.s > state.s + slipTravel_m) run.converged = false;
+    if (!run.converged && problem.force_N) {
+      // The coarse cells bore more than these do, or the way there was too long: the path again, from here.
+      trial = state;
+      if (!converge(trial, {}, pathTolerance, 80).converged) return false;
+      if (barForce(trial) < *problem.force_N && !follow(trial)) {
+        state = std::move(trial);
+        return false;
+      }
+      run = converge(trial, problem.force_N, tolerance, 80);
+    }
+    out.solution.report.residual = run.residual;
+    if (!run.converged) {
+      out.outcome = ContactOutcome::Stopped;
+      return false;
+    }
+    state = std::move(trial);
+    if (lastLevel) return true;
+  }
+}
+
+/// Dead loads without a bar: in full, else in smaller parts.
+bool Solver::loadInSteps(State& state) {
+  double reached = 0, step = 1;
+  const std::vector<double> whole = loads[0];
+  while (reached < 1) {
+    const double target = std::min(1.0, reached + step);
+    std::vector<double> part = whole;
+    for (double& f : part) f *= target;
+    energy.setLoads(0, part);
+    State trial = state;
+    const NewtonRun run = converge(trial, {}, target < 1 ? std::max(1e-3, options.tolerance) : options.tolerance, 60);
+    out.solution.report.residual = run.residual;
+    if (run.converged) {
+      state = std::move(trial);
+      reached = target;
+      if (run.iterations < 12) step *= 2;
+      continue;
+    }
+    step *= 0.5;
+    if (step < 1.0 / 64) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+ContactSolution solveContact(const ContactProblem& problem, const ContactOptions& options, const Progress& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  if (problem.bar && problem.force_N.has_value() == problem.travel_m.has_value())
+    throw BadArgument("solveContact: give either the force or the travel of the bar");
+  requireSupported(VoxelMesh(problem.problem.body), problem.problem.supports);
+  Solver solver(problem, options, progress);
+  State state;
+  solver.useLevel(solver.pathLevel());
+  state.u = solver.energy.top() == 0 ? prescribedOnFinest(solver.hierarchy.level(0), problem)
+                                     : std::vector<double>(3 * solver.hierarchy.level(solver.energy.top()).nodes(), 0.0);
+  bool good = false;
+  if (problem.bar) {
+    state.s = -0.5 * options.zone_m;
+    good = solver.follow(state);
+    if (good) good = solver.finish(state);
+  } else {
+    good = solver.loadInSteps(state);
+    solver.out.outcome = good ? ContactOutcome::Reached : ContactOutcome::Stopped;
+  }
+  // What was reached is told on the finest cells.
+  while (solver.energy.top() > 0 && !options.pathOnly) {
+    const std::size_t l = solver.energy.top() - 1;
+    state.u = solver.hierarchy.prolonged(l, state.u);
+    solver.useLevel(l);
+  }
+  describe(solver.hierarchy, solver.energy, problem, solver.kept, state, solver.out);
+  SolveReport& report = solver.out.solution.report;
+  report.kind = "newton-multigrid-pcg";
+  report.status = good ? SolveStatus::Converged : SolveStatus::StoppedAtLimit;
+  report.iterations = solver.out.newton;
+  report.tolerance = options.tolerance;
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return std::move(solver.out);
+}
+
+}  // namespace glisson::mechanics

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "base/progress.h"
+#include "mechanics/contact/cell_kernel.h"
+#include "mechanics/contact/rigid_bar.h"
+#include "mechanics/problem.h"
+
+namespace glisson::mechanics {
+
+/// A sample of the body's surface: place and outward normal at rest (grid axes, m), and the area it stands for.
+struct SurfaceSample {
+  Eigen::Vector3d p_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double area_m2 = 0;
+};
+
+/// A body under large deformation, and the rigid bar that is moved against it.
+struct ContactProblem {
+  Problem problem;  ///< E of a cell that the surface cuts: modulus times covered fraction; f_N: dead loads
+  SolidLaw law = SolidLaw::Polynomial;
+  std::vector<SurfaceSample> surface;
+  std::vector<double> skin_Pa;  ///< per cell, x fastest: further Young's modulus of the surface's cells, or empty
+  double skinPoisson = 0.3;
+  std::optional<RigidBar> bar;       ///< from anywhere behind its first touch; travel counts from there
+  std::optional<double> force_N;     ///< on the bar along its hoist; or
+  std::optional<double> travel_m;    ///< of the bar
+};
+
+struct ContactOptions {
+  double tolerance = 1e-6;  ///< on ‖gradient‖ / load
+  double zone_m = 1e-3;     ///< width of the barrier; half of it lies inside the body
+  double proof = 1.0;       ///< the path is followed to this multiple of the force before the answer is given
+  bool pathOnly = false;    ///< stop on the cells that the path is followed on
+};
+
+enum class ContactOutcome {
+  Reached,   ///< the force or the travel asked for
+  Slips,     ///< the force falls with travel below what was asked for: no equilibrium beyond capacity_N
+  Stopped    ///< no convergence, no reason found
+};
+
+struct PathStep {
+  double travel_m = 0, force_N = 0;
+};
+
+struct ContactSolution {
+  Solution solution;  ///< of the last equilibrium reached
+  ContactOutcome outcome = ContactOutcome::Stopped;
+  double travel_m = 0;                  ///< of the bar from its first touch
+  double capacity_N = 0;                ///< largest force met on the path
+  bool capacityExceeded = false;        ///< the force fell after it
+  std::vector<PathStep> path;           ///< on the path's cells, then the answer
+  double largestDrop_N = 0;             ///< of the force from one step to the next
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();     ///< of the bar on the body
+  Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();   ///< about the bar's centre
+  double area_m2 = 0, footprint_m2 = 0;  ///< of the surface in contact, deformed: as it is, and seen along the hoist
+  double pressureMax_Pa = 0, penetrationMax_m = 0;
+  std::vector<double> pressure_Pa;       ///< per surface sample
+  Eigen::Matrix3Xd surface_u_m;          ///< displacement of each surface sample
+  double smallestJ = 1;
+  int newton = 0, inner = 0;             ///< iterations, path included
+  RigidBar bar;                          ///< its centre line at first touch (travel 0)
+};
+
+/// Equilibrium of a hyperelastic body held by springs and clamps and pushed by a rigid, frictionless bar, by Newton's
+/// method on the potential energy: exact tangent, conjugate gradients with a multigrid rebuilt at each step, line search
+/// on the energy. Contact is a logarithmic barrier in the gap of each surface sample, whose exact second derivative is
+/// used. The bar is first moved step by step on coarse cells, until the force or the travel is reached or the force
+/// falls; then the end of that path is converged on the body's own cells. Without a bar the dead loads are applied in
+/// full, in smaller steps where that fails. The same bits with any number of threads.
+/// Throws BadInput (no sample of the surface can be met by the bar; a body that nothing holds), Cancelled.
+ContactSolution solveContact(const ContactProblem& problem, const ContactOptions& options = {},
+                             const Progress& progress = {});
+
+}  // namespace glisson::mechanics
