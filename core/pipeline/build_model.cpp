@@ -118,6 +118,16 @@ image::Mask bodyCells(const Scene& scene, const Inputs& inputs) {
   return resampled(*inputs.liver, Eigen::Vector3d::Constant(2.0 * std::min(s.x(), s.y())));
 }
 
+std::shared_ptr<const retraction::SmoothBody> smoothBody(const Scene& scene, const Inputs& inputs) {
+  const auto& loads = scene.setup.loads;
+  const bool retractor = std::any_of(loads.begin(), loads.end(), [](const retraction::LoadSpec& load) {
+    return std::holds_alternative<retraction::Retractor>(load);
+  });
+  if (!retractor || scene.geometry.kind == GeometrySpec::Kind::Box) return nullptr;
+  if (!inputs.liver) throw BadArgument("smoothBody: the inputs hold no region of interest");
+  return std::make_shared<const retraction::SmoothBody>(*inputs.liver);
+}
+
 retraction::Model buildModel(const Scene& scene, const Inputs& inputs, const image::Mask& cells) {
   const MaterialSpec& m = scene.material;
   switch (m.kind) {

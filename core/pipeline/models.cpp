@@ -15,7 +15,11 @@ Models buildModels(const Scene& scene, bool vessels, const Progress& progress, c
   progress.report(0.3, "mesh");
   const image::Mask cells = detail::dropLooseIslands(scene, detail::bodyCells(scene, inputs), m.warnings);
   m.model = detail::buildModel(scene, inputs, cells);
-  if (scene.compare) m.atlas = detail::buildAtlasModel(scene, cells);
+  m.model.smooth = detail::smoothBody(scene, inputs);
+  if (scene.compare) {
+    m.atlas = detail::buildAtlasModel(scene, cells);
+    m.atlas->smooth = m.model.smooth;
+  }
   if (vessels && inputs.mri && inputs.liver) {
     const anatomy::VesselModel found = anatomy::findVessels(*inputs.mri, *inputs.liver, progress.part(0.4, 1.0));
     m.landmarks_mm = found.centreline_lps_mm;

@@ -177,7 +177,11 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   steps.run("mesh", [&](const Progress&) {
     cells = detail::dropLooseIslands(scene, detail::bodyCells(scene, inputs), r.warnings);
     r.model = detail::buildModel(scene, inputs, cells);
-    if (scene.compare) atlasModel = detail::buildAtlasModel(scene, cells);
+    r.model.smooth = detail::smoothBody(scene, inputs);
+    if (scene.compare) {
+      atlasModel = detail::buildAtlasModel(scene, cells);
+      atlasModel.smooth = r.model.smooth;
+    }
   });
 
   steps.run(needs.timeSteps ? "time-steps" : "solve", [&](const Progress& p) {

@@ -82,7 +82,9 @@ retraction::Model coarsened(const retraction::Model& model) {
         }
         if (filled >= 4) E.at(i, j, k) = static_cast<float>(sum / filled);
       }
-  return retraction::makeModel(std::move(E), model.poisson, model.density, false);
+  retraction::Model made = retraction::makeModel(std::move(E), model.poisson, model.density, false);
+  made.smooth = model.smooth;
+  return made;
 }
 
 retraction::Model refined(const retraction::Model& model) {
@@ -95,7 +97,9 @@ retraction::Model refined(const retraction::Model& model) {
   for (int k = 0; k < fine.size.z(); ++k)
     for (int j = 0; j < fine.size.y(); ++j)
       for (int i = 0; i < fine.size.x(); ++i) E.at(i, j, k) = model.youngs_kPa.at(i / 2, j / 2, k / 2);
-  return retraction::makeModel(std::move(E), model.poisson, model.density, false);
+  retraction::Model made = retraction::makeModel(std::move(E), model.poisson, model.density, false);
+  made.smooth = model.smooth;
+  return made;
 }
 
 retraction::Setup held(const retraction::Setup& setup, const retraction::Model& model,

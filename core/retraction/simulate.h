@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@
 
 namespace glisson::retraction {
 
+class SmoothBody;
+
 /// The body of a scene: cells on a grid in the patient frame (a box has its own frame: identity axes, and spans [0,
 /// size]). A cell is a voxel: its centre is the voxel's centre.
 struct Model {
@@ -20,6 +23,9 @@ struct Model {
   std::size_t cells = 0;
   double volume_mL = 0.0;
   double mass_kg = 0.0;
+  /// The body behind the cells where it comes from a mask, shared by all models of it; null for boxes, and where no
+  /// retractor asks for it.
+  std::shared_ptr<const SmoothBody> smooth;
 };
 
 /// Counts cells, volume and mass; throws BadInput naming voxel and slice where a modulus is not usable, or where the
