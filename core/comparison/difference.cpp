@@ -1,6 +1,7 @@
 #include "comparison/difference.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/error.h"
@@ -26,6 +27,53 @@ double largest(const std::vector<double>& v) {
   return v.empty() ? 0.0 : *std::max_element(v.begin(), v.end());
 }
 
+/// A mean that weighs.
+struct WeightedMean {
+  double sum = 0.0, weight = 0.0;
+  void add(double value, double w) {
+    sum += w * value;
+    weight += w;
+  }
+  double value() const { return weight > 0.0 ? sum / weight : 0.0; }
+};
+
+/// Force at a travel, linear between the steps of a path.
+double forceAt(const std::vector<std::array<double, 2>>& path, double travel_mm) {
+  for (std::size_t i = 1; i < path.size(); ++i)
+    if (path[i][0] >= travel_mm && path[i][0] > path[i - 1][0]) {
+      const double t = (travel_mm - path[i - 1][0]) / (path[i][0] - path[i - 1][0]);
+      return path[i - 1][1] + t * (path[i][1] - path[i - 1][1]);
+    }
+  return path.empty() ? 0.0 : path.back()[1];
+}
+
+/// In the bar's window at rest: under its length and diameter, looking against the hoist, within 30 mm of it.
+bool inWindow(const retraction::RigidContact& c, std::size_t sample) {
+  constexpr double depth_mm = 30.0;
+  const Eigen::Vector3d &a = c.bar_mm.front(), &b = c.bar_mm.back();
+  const Eigen::Vector3d axis = (b - a).normalized(), d = c.sample_mm[sample] - 0.5 * (a + b);
+  return std::abs(d.dot(axis)) <= 0.5 * (b - a).norm() && std::abs(d.dot(c.hoist.cross(axis))) <= c.barRadius_mm &&
+         std::abs(d.dot(c.hoist)) <= depth_mm;
+}
+
+void compareContacts(const retraction::RigidContact& a, const retraction::RigidContact& b, Difference& d) {
+  if (a.sample_mm.size() != b.sample_mm.size())
+    throw BadArgument("compare: the two retractions were made on different surfaces");
+  WeightedMean under, window, pressed;
+  for (std::size_t i = 0; i < a.sample_mm.size(); ++i) {
+    const double apart_mm = (a.sample_u_mm[i] - b.sample_u_mm[i]).norm(), area = a.sample_mm2[i];
+    if (a.pressure_kPa[i] > 0.0 || b.pressure_kPa[i] > 0.0) under.add(apart_mm, area);
+    pressed.add(apart_mm, area * (a.pressure_kPa[i] + b.pressure_kPa[i]));
+    if (inWindow(a, i)) window.add(apart_mm, area);
+  }
+  d.at_retractor_mm = under.value();
+  d.window_at_rest_mm = window.value();
+  d.contact_mean_mm = pressed.value();
+  d.travel_mm = a.travel_mm - b.travel_mm;
+  const double lift_mm = std::min(a.travel_mm, b.travel_mm);
+  d.equal_lift = {lift_mm, forceAt(a.path, lift_mm), forceAt(b.path, lift_mm)};
+}
+
 }  // namespace
 
 Difference compare(const retraction::Model& model, const retraction::Result& a, const retraction::Result& b,
@@ -45,7 +93,8 @@ Difference compare(const retraction::Model& model, const retraction::Result& a, 
   std::vector<double> contact;
   for (const int node : a.contactNodes) contact.push_back(1e3 * (a.nodal_u_m.col(node) - b.nodal_u_m.col(node)).norm());
   d.at_retractor_mm = mean(contact);
-  d.clinically_significant = (contact.empty() ? d.max_mm : d.at_retractor_mm) >= significant.mm();
+  if (a.contact && b.contact) compareContacts(*a.contact, *b.contact, d);
+  d.clinically_significant = (contact.empty() && !a.contact ? d.max_mm : d.at_retractor_mm) >= significant.mm();
 
   if (!landmarks_mm.empty()) {
     const std::vector<Eigen::Vector3d> ua = retraction::displacementAt(model, a, landmarks_mm);

@@ -31,6 +31,22 @@ Json solverToJson(const mechanics::SolveReport& s) {
           {"seconds", s.seconds}};
 }
 
+Json contactToJson(const retraction::RigidContact& c) {
+  Json path = Json::array();
+  for (const auto& step : c.path) path.push_back({step[0], step[1]});
+  return {{"travel_mm", c.travel_mm},
+          {"capacity_N", c.capacityExceeded ? Json(c.capacity_N) : Json(nullptr)},
+          {"slipped", c.slipped},
+          {"force_N", toJson(c.force_N)},
+          {"moment_Nm", toJson(c.moment_Nm)},
+          {"area_mm2", c.area_mm2},
+          {"footprint_mm2", c.footprint_mm2},
+          {"pressure_max_kPa", c.pressureMax_kPa},
+          {"penetration_max_mm", c.penetrationMax_mm},
+          {"least_volume_ratio", c.smallestJ},
+          {"path", path}};
+}
+
 Json resultToJson(const retraction::Result& r, const Scene& scene) {
   Json j;
   j["solver"] = solverToJson(r.solver);
@@ -48,13 +64,24 @@ Json resultToJson(const retraction::Result& r, const Scene& scene) {
   j["max_rotation_deg"] = r.max_rotation_deg;
   j["max_displacement_mm"] = r.max_displacement_mm;
   j["linear_valid"] = r.linearTrusted;
+  j["kinematics_valid"] = r.linearTrusted;
   j["drawable"] = r.drawable;
   j["validity"] = r.validity;
   if (r.retractorPoint_mm) {
     j["retractor_point_mm"] = toJson(*r.retractorPoint_mm);
     j["contact_area_mm2"] = r.contactArea_mm2;
   }
+  if (r.contact) j["contact"] = contactToJson(*r.contact);
   return j;
+}
+
+Json toJson(const Diagnostic& d) {
+  Json arguments = Json::object();
+  for (const auto& [key, value] : d.arguments) std::visit([&, k = key](const auto& v) { arguments[k] = v; }, value);
+  return {{"code", nameOf(d.code)},
+          {"severity", nameOf(d.severity())},
+          {"text", d.text()},
+          {"arguments", std::move(arguments)}};
 }
 
 /// Digest of a file, or of all files of a folder in the order of their names' digests.
@@ -81,11 +108,20 @@ void nameFiles(Json& j, const std::vector<std::filesystem::path>& files, render:
 }
 
 Json differenceToJson(const comparison::Difference& d) {
-  return {{"mean_mm", d.mean_mm},
-          {"p95_mm", d.p95_mm},
-          {"max_mm", d.max_mm},
-          {"at_retractor_mm", d.at_retractor_mm},
-          {"clinically_significant", d.clinically_significant}};
+  Json j = {{"mean_mm", d.mean_mm},
+            {"p95_mm", d.p95_mm},
+            {"max_mm", d.max_mm},
+            {"at_retractor_mm", d.at_retractor_mm},
+            {"clinically_significant", d.clinically_significant}};
+  if (d.travel_mm) {
+    j["travel_mm"] = *d.travel_mm;
+    j["window_at_rest_mm"] = *d.window_at_rest_mm;
+    j["contact_mean_mm"] = *d.contact_mean_mm;
+    j["equal_lift"] = {{"travel_mm", d.equal_lift->travel_mm},
+                       {"force_N", d.equal_lift->force_N},
+                       {"atlas_force_N", d.equal_lift->other_force_N}};
+  }
+  return j;
 }
 
 Json motionToJson(const retraction::Model& model, const retraction::Result& r) {
@@ -196,12 +232,6 @@ Motion motionOf(const retraction::Model& model, const retraction::Result& result
   return m;
 }
 
-std::string nameOf(retraction::Kinematics kinematics) {
-  return kinematics == retraction::Kinematics::Linear         ? "linear"
-         : kinematics == retraction::Kinematics::Corotational ? "corotational"
-                                                              : "hyperelastic";
-}
-
 std::string adviceOn(const retraction::Result& r) {
   if (r.kinematics != retraction::Kinematics::Linear || r.linearTrusted || !r.solver.converged()) return {};
   if (r.p95_strain >= 0.10)
@@ -265,6 +295,7 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
                                     {"max_mm", d.vesselMax_mm},
                                     {"fraction_beyond_5mm", d.vesselFractionBeyond}};
   }
+  if (scene.compare && !r.difference) j["difference"] = nullptr;
   if (r.stiffness) {
     const elastography::Statistics& s = r.stiffness->pooled;
     j["stiffness"] = {{"quantity", r.stiffness->quantity == StiffnessQuantity::Shear ? "shear" : "youngs"},
@@ -275,6 +306,10 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
                       {"sd_kPa", s.sd_kPa}};
   }
   j["warnings"] = r.warnings;
+  for (const std::string& text : r.diagnostics.texts(Severity::Warning)) j["warnings"].push_back(text);
+  j["diagnostics"] = Json::array();
+  for (const Diagnostic& d : r.diagnostics) j["diagnostics"].push_back(toJson(d));
+  j["kinematics"] = {{"asked", nameOf(scene.setup.kinematics)}, {"used", nameOf(r.primary.kinematics)}, {"why", r.kinematicsWhy}};
   j["parameters"] = parametersToJson(scene);
   j["constants"] = {{"gravity_m_s2", defaults::gravity_m_s2},
                     {"clinically_significant_mm", defaults::clinicallySignificant.mm()},

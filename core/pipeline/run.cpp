@@ -143,6 +143,33 @@ void requireMemory(const std::vector<PlanStep>& plan) {
     }
 }
 
+std::string_view wordOf(bool atlas) {
+  return atlas ? "atlas" : "own";
+}
+
+void tellOfSlips(RunResult& r) {
+  for (const bool atlas : {false, true}) {
+    const retraction::Result* result = atlas ? (r.atlas ? &*r.atlas : nullptr) : &r.primary;
+    if (result == nullptr || !result->contact || !result->contact->slipped) continue;
+    const retraction::RigidContact& c = *result->contact;
+    r.diagnostics.add(DiagnosticCode::RetractorSlips, {{"capacity_N", c.capacity_N},
+                                                       {"travel_mm", c.travel_mm},
+                                                       {"stiffness", std::string(wordOf(atlas))},
+                                                       {"asked_N", c.asked_N}});
+  }
+}
+
+/// Two runs of which one is no answer have no difference.
+void withhold(RunResult& r) {
+  for (const bool atlas : {false, true}) {
+    const retraction::Result& result = atlas ? *r.atlas : r.primary;
+    if (result.solver.converged()) continue;
+    r.diagnostics.add(DiagnosticCode::DifferenceWithheld,
+                      {{"stiffness", std::string(wordOf(atlas))},
+                       {"reason", std::string(result.contact && result.contact->slipped ? "slips" : "not converged")}});
+  }
+}
+
 }  // namespace
 
 RunResult run(const Scene& scene, const RunOptions& options, const Progress& progress, const Inputs* given) {
@@ -237,6 +264,12 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   anatomy::VesselModel vessels;
   steps.run("vessels", [&](const Progress& p) { vessels = anatomy::findVessels(*inputs.mri, *inputs.liver, p); });
   r.landmarks_mm = vessels.centreline_lps_mm;
+  tellOfSlips(r);
+  const bool comparable = r.atlas && r.primary.solver.converged() && r.atlas->solver.converged();
+  if (r.atlas && !comparable) {
+    withhold(r);
+    steps.leaveOut("difference", "one of the two runs is no answer");
+  }
   steps.run("difference", [&](const Progress&) {
     r.difference = comparison::compare(r.model, r.primary, *r.atlas, vessels.centreline_lps_mm);
   });

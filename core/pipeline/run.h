@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "base/progress.h"
 #include "comparison/difference.h"
 #include "elastography/statistics.h"
@@ -45,6 +46,8 @@ struct RunResult {
   std::optional<render::RetractionScene> picture;      ///< what the overlays draw, where they are asked for
   std::vector<std::filesystem::path> files;            ///< everything written, run.json first
   std::vector<std::string> warnings;
+  Diagnostics diagnostics;
+  std::string kinematicsWhy;  ///< why these kinematics were used
   std::string json;  ///< the run record, as in contract.md
 };
 

@@ -114,8 +114,22 @@ MaterialSpec readMaterial(JsonObject& scene, Setup& setup, const std::filesystem
     m.kind = o.word("source", {"mre", "atlas"}) == "mre" ? MaterialSpec::Kind::Mre : MaterialSpec::Kind::Atlas;
   }
   readPoissonAndDensity(o, setup);
+  if (o.word("law", {"neo-hookean", "neo-hookean-polynomial"}, "neo-hookean") == "neo-hookean-polynomial")
+    setup.law = mechanics::SolidLaw::Polynomial;
   o.finish();
   return m;
+}
+
+/// Glisson's capsule: default, false, or its tension.
+std::optional<retraction::Capsule> readCapsule(JsonObject& scene, bool byDefault) {
+  retraction::Capsule capsule;
+  if (!scene.has("capsule")) return byDefault ? std::optional(capsule) : std::nullopt;
+  if (scene.raw("capsule").is_boolean())
+    return scene.boolean("capsule", false) ? std::optional(capsule) : std::nullopt;
+  JsonObject o = scene.object("capsule");
+  capsule.tension_N_per_mm = positive(o, "tension_N_per_mm", o.number("tension_N_per_mm", capsule.tension_N_per_mm));
+  o.finish();
+  return capsule;
 }
 
 CompareSpec readCompare(JsonObject o) {
@@ -173,6 +187,26 @@ OutputSpec readOutputs(JsonObject& scene) {
 
 }  // namespace
 
+namespace {
+constexpr std::pair<const char*, retraction::Kinematics> kinematicsWords[] = {
+    {"auto", retraction::Kinematics::Auto},
+    {"linear", retraction::Kinematics::Linear},
+    {"corotational", retraction::Kinematics::Corotational},
+    {"hyperelastic", retraction::Kinematics::Hyperelastic}};
+}  // namespace
+
+retraction::Kinematics kinematicsOf(const std::string& word) {
+  for (const auto& [name, kinematics] : kinematicsWords)
+    if (word == name) return kinematics;
+  throw BadArgument("kinematics \"" + word + "\" are not known");
+}
+
+std::string nameOf(retraction::Kinematics kinematics) {
+  for (const auto& [name, k] : kinematicsWords)
+    if (k == kinematics) return name;
+  throw BadArgument("kinematics without a name");
+}
+
 Scene parseScene(const std::string& text, const std::filesystem::path& folder, const std::string& name) {
   const JsonDocument document = JsonDocument::parse(text, name);
   JsonObject o(document, "", document.root);
@@ -191,10 +225,12 @@ Scene parseScene(const std::string& text, const std::filesystem::path& folder, c
     o.fail("model",
            "asks for Delaunay tetrahedra, which follow smooth organs and would round the edges of a box: use "
            "\"mesh\": \"voxels\"");
-  const std::string kinematics = o.word("kinematics", {"linear", "corotational", "hyperelastic"}, "linear");
-  s.setup.kinematics = kinematics == "linear"         ? retraction::Kinematics::Linear
-                       : kinematics == "corotational" ? retraction::Kinematics::Corotational
-                                                      : retraction::Kinematics::Hyperelastic;
+  const bool retractor = std::any_of(s.setup.loads.begin(), s.setup.loads.end(), [](const retraction::LoadSpec& l) {
+    return std::holds_alternative<retraction::Retractor>(l);
+  });
+  s.setup.kinematics = kinematicsOf(
+      o.word("kinematics", {"auto", "linear", "corotational", "hyperelastic"}, retractor ? "auto" : "linear"));
+  s.setup.capsule = readCapsule(o, retractor && s.geometry.kind == GeometrySpec::Kind::Patient);
   if (o.has("analysis")) s.setup.analysis = detail::readAnalysis(o.object("analysis"));
   if (o.has("solver")) {
     s.setup.solver = detail::readSolver(o.object("solver"));

@@ -69,6 +69,10 @@ Scene readScene(const std::filesystem::path& file);
 /// name: what to call the text in messages, e.g. the file's name.
 Scene parseScene(const std::string& text, const std::filesystem::path& folder, const std::string& name = "scene");
 
+/// Kinematics by their word in a scene, and back. Throws BadArgument for an unknown word.
+retraction::Kinematics kinematicsOf(const std::string& word);
+std::string nameOf(retraction::Kinematics kinematics);
+
 /// A scene as JSON text with every default written out; parseScene of it gives the same scene.
 std::string toJson(const Scene& scene);
 

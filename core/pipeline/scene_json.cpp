@@ -71,6 +71,7 @@ Json toJson(const MaterialSpec& m, const retraction::Setup& setup, const std::fi
   }
   j["poisson"] = setup.poisson;
   j["density_kg_m3"] = setup.density.kgPerM3();
+  if (setup.law == mechanics::SolidLaw::Polynomial) j["law"] = "neo-hookean-polynomial";
   return j;
 }
 
@@ -125,7 +126,12 @@ struct LoadToJson {
     Json j = {
         {"kind", "retractor"}, {"diameter_mm", l.diameter_mm}, {"length_mm", l.length_mm}, {"spread_mm", l.spread_mm}};
     j["at"] = l.at_mm ? toJson(*l.at_mm) : Json("inferior-right-lobe");
-    j["force"] = l.force_N ? Json(*l.force_N) : Json("liver-weight");
+    if (l.travel_mm)
+      j["drive"] = {{"travel_mm", *l.travel_mm}};
+    else
+      j["force"] = l.force_N ? Json(*l.force_N) : Json("liver-weight");
+    if (l.contact) j["contact"] = *l.contact == retraction::ContactKind::Rigid ? "rigid" : "patch";
+    if (l.shape == retraction::BarShape::Hook) j["shape"] = "hook";
     j["direction"] = toJson(l.direction);
     j["axis"] = toJson(l.axis);
     return j;
@@ -195,9 +201,8 @@ std::string toJson(const Scene& scene) {
   j["loads"] = Json::array();
   for (const auto& load : s.loads) j["loads"].push_back(std::visit(LoadToJson{scene.folder}, load));
   j["model"] = toJson(s.model);
-  j["kinematics"] = s.kinematics == retraction::Kinematics::Linear         ? "linear"
-                    : s.kinematics == retraction::Kinematics::Corotational ? "corotational"
-                                                                           : "hyperelastic";
+  j["kinematics"] = nameOf(s.kinematics);
+  j["capsule"] = s.capsule ? Json{{"tension_N_per_mm", s.capsule->tension_N_per_mm}} : Json(false);
   j["analysis"] = toJson(s.analysis);
   j["solver"] = solverToJson(s);
   if (scene.compare)

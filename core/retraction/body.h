@@ -76,6 +76,9 @@ Contact findContact(const Body& body, const Retractor& retractor, const Eigen::V
 /// is the centroid of those faces. Throws BadInput where no face looks against the hoist.
 Eigen::Vector3d findHoistPoint(const Body& body, const Retractor& retractor, const Eigen::Vector3d& inferior_mm);
 
+/// The same for a scene's own model, from its inferior point.
+Eigen::Vector3d defaultHoistPoint(const Body& body, const Model& model, const Retractor& retractor);
+
 /// A uniform traction on one voxel face, Pa, grid axes.
 struct FaceTraction {
   mechanics::Face face;

@@ -11,6 +11,7 @@
 
 #include "base/quantity.h"
 #include "image/volume.h"
+#include "mechanics/contact/cell_kernel.h"
 #include "mechanics/meshfree.h"
 #include "mechanics/problem.h"
 
@@ -59,6 +60,12 @@ struct Pressure {
   Region region;
   double kPa;
 };  ///< positive pushes against the outward normal
+/// How the bar meets the liver. Rigid: a body of its own that pushes and does not pull, without friction. Patch: its
+/// force spread over the surface at rest.
+enum class ContactKind { Rigid, Patch };
+/// Straight: a capsule, length_mm between the centres of its round ends. Hook: the same length bent to an arc of a
+/// quarter turn across the hoist, as the blade of a Nathanson retractor.
+enum class BarShape { Straight, Hook };
 struct Retractor {
   double diameter_mm = 10.0;
   double length_mm = 80.0;
@@ -67,6 +74,9 @@ struct Retractor {
   std::optional<double> force_N;         ///< empty: the liver's weight
   Eigen::Vector3d direction{0, -1, 0};  ///< of the hoist, LPS; "transverse" = towards anterior, in the transverse plane
   Eigen::Vector3d axis{1, 0, 0};        ///< of the bar, LPS
+  std::optional<ContactKind> contact;   ///< empty: rigid where model and analysis offer it, else patch
+  std::optional<double> travel_mm;      ///< the bar's way from its first touch, instead of a force
+  BarShape shape = BarShape::Straight;
 };
 using LoadSpec = std::variant<BodyForce, Traction, Pressure, Retractor>;
 
@@ -88,8 +98,15 @@ struct AnalysisSpec {
   double stopWhenSteady = 1e-6;                 ///< relative change per step; 0 = never
 };
 
-/// How strain follows from displacement.
-enum class Kinematics { Linear, Corotational, Hyperelastic };
+/// How strain follows from displacement. Auto: linear where that is right to 0.2 mm, else hyperelastic.
+enum class Kinematics { Linear, Corotational, Hyperelastic, Auto };
+
+/// Glisson's capsule: a membrane that carries tension along the surface only.
+struct Capsule {
+  /// Young's modulus times thickness. Default: porcine capsule, 8.2 MPa at small strain [umale2011characterization] times
+  /// 30 µm, the lower end of 50 to 90 µm, as its curve is J-shaped.
+  double tension_N_per_mm = 0.25;
+};
 
 /// All of a mechanics scene but its geometry and stiffness.
 struct Setup {
@@ -101,6 +118,8 @@ struct Setup {
   Kinematics kinematics = Kinematics::Linear;
   AnalysisSpec analysis;
   mechanics::SolverOptions solver;
+  mechanics::SolidLaw law = mechanics::SolidLaw::Logarithmic;  ///< Hyperelastic: which neo-Hookean energy
+  std::optional<Capsule> capsule;  ///< rigid contact only; empty: none
   bool condensed = false;  ///< answer through the condensed response of the full model instead of the solve itself
   std::uint64_t seed = 1;
 };

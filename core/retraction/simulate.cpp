@@ -17,6 +17,7 @@
 #include "retraction/body.h"
 #include "retraction/condensed_solve.h"
 #include "retraction/delaunay_solve.h"
+#include "retraction/rigid_contact.h"
 
 namespace glisson::retraction {
 namespace {
@@ -30,6 +31,7 @@ struct Answer {
   int frames = 0;
   int steps = 0;
   std::vector<std::string> notes;
+  std::optional<RigidContact> contact;
   std::vector<std::string> limits;  ///< what the mesh-free model could not give as asked for
 };
 
@@ -45,7 +47,7 @@ mechanics::DynamicOptions dynamicOptions(const AnalysisSpec& a) {
 
 /// Nothing that a scene asks for is passed over in silence.
 void requireOffered(const Setup& setup) {
-  const bool linear = setup.kinematics == Kinematics::Linear;
+  const bool linear = setup.kinematics == Kinematics::Linear || setup.kinematics == Kinematics::Auto;
   const std::string kinematics = setup.kinematics == Kinematics::Corotational ? "corotational" : "hyperelastic";
   if (!linear && setup.model.kind != ModelKind::FemHex)
     throw BadInput("kinematics \"" + kinematics + "\" is offered for the model \"fem-hex\" only; this scene asks for " +
@@ -195,6 +197,14 @@ std::vector<Eigen::Vector3d> interpolate(const Body& body, const mechanics::Noda
   return out;
 }
 
+std::string slipInWords(const RigidContact& c) {
+  std::ostringstream text;
+  text.precision(3);
+  text << "the bar slips at " << c.capacity_N << " N after " << c.travel_mm << " mm: the liver does not bear " << c.asked_N
+       << " N at this place; choose one where it is thicker and level across the bar, or a smaller force";
+  return text.str();
+}
+
 /// The verdict and its reasons, in words.
 void judge(const Body& body, const mechanics::Solution& s, Result& r) {
   const bool linear = r.kinematics == Kinematics::Linear;
@@ -212,13 +222,19 @@ void judge(const Body& body, const mechanics::Solution& s, Result& r) {
   r.linearTrusted = validity.linearTrusted && s.report.converged();
   r.validity = validity.warnings;
   r.drawable = s.report.converged() && !validity.invalid;
+  if (r.contact && !linear) {
+    // Cut cells that the bar folds say nothing about the body; the mean volume of those that count does.
+    r.validity.clear();
+    r.linearTrusted = r.drawable = s.report.converged() && r.contact->smallestJ > 0;
+  }
   if (r.kinematics == Kinematics::Corotational && m.p95Strain >= 0.10) {
     r.linearTrusted = false;
     r.validity.push_back(
         "outside corotational theory, whose strains are small: 5 % of the volume strains by more than " +
         std::to_string(std::lround(100 * m.p95Strain)) + " % (limit 10 %); use hyperelastic kinematics");
   }
-  if (!s.report.converged())
+  if (r.contact && r.contact->slipped) r.validity.insert(r.validity.begin(), slipInWords(*r.contact));
+  if (!s.report.converged() && !(r.contact && r.contact->slipped))
     r.validity.insert(r.validity.begin(), "the solve did not converge: " + mechanics::describe(s.report.status) +
                                               (linear ? "" : " (" + s.report.why + ")") +
                                               "; these numbers are not the answer");
@@ -239,6 +255,14 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
   r.u_mm = atCellCentres(body, model.youngs_kPa.grid, s.u_m);
 
   r.kinematics = setup.kinematics;
+  r.contact = std::move(answer.contact);
+  if (r.contact) {
+    r.load_N += r.contact->force_N;
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p : r.contact->bar_mm) middle += p / static_cast<double>(r.contact->bar_mm.size());
+    r.retractorPoint_mm = middle + r.contact->barRadius_mm * r.contact->hoist;
+    r.contactArea_mm2 = r.contact->footprint_mm2;
+  }
   judge(body, s, r);
   for (const std::string& limit : answer.limits) r.validity.push_back("mesh-free model: " + limit);
   if (scene.contact) {
@@ -268,7 +292,20 @@ Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen:
   requireOffered(setup);
   const Body body(model);
   const MechanicsScene scene = toMechanics(body, model, setup);
-  return readBack(model, body, scene, setup, solve(model, body, scene, setup, progress), probes_mm);
+  if (std::optional<Retractor> bar = rigidBarOf(setup)) {
+    Setup used = setup;
+    if (used.kinematics == Kinematics::Auto) used.kinematics = Kinematics::Hyperelastic;
+    if (!bar->at_mm) bar->at_mm = defaultHoistPoint(body, model, *bar);
+    RigidContactAnswer c = solveRigidContact(body, model, used, scene, *bar, progress);
+    Answer answer;
+    answer.solution = std::move(c.solution);
+    answer.dofs = c.dofs;
+    answer.contact = std::move(c.contact);
+    return readBack(model, body, scene, used, std::move(answer), probes_mm);
+  }
+  Setup used = setup;
+  if (used.kinematics == Kinematics::Auto) used.kinematics = Kinematics::Linear;
+  return readBack(model, body, scene, used, solve(model, body, scene, used, progress), probes_mm);
 }
 
 Result scaled(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,

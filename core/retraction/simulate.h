@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +34,27 @@ struct Model {
 /// body is not between 0.03 and 0.6 m long and checkSize is set.
 Model makeModel(image::ScalarVolume youngs_kPa, double poisson, Density density, bool checkSize);
 
+/// What the rigid bar and the liver do to each other at the end, mm, N, kPa, LPS.
+struct RigidContact {
+  double travel_mm = 0.0;             ///< of the bar from its first touch, along the hoist
+  double capacity_N = 0.0;            ///< largest force met on the way
+  bool capacityExceeded = false;      ///< the force fell beyond it
+  bool slipped = false;               ///< what was asked for is more than the liver bears at this place
+  double asked_N = 0.0;               ///< force asked for; 0 where the travel was
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();    ///< of the bar on the liver
+  Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();  ///< about the bar's centre
+  double area_mm2 = 0.0, footprint_mm2 = 0.0;  ///< of the surface that touches: as it is, and seen along the hoist
+  double pressureMax_kPa = 0.0, penetrationMax_mm = 0.0;
+  double smallestJ = 1.0;  ///< least volume ratio of a cell
+  std::vector<Eigen::Vector3d> bar_mm;               ///< centre line at first touch
+  double barRadius_mm = 0.0;
+  Eigen::Vector3d hoist = Eigen::Vector3d::Zero();   ///< unit, LPS
+  std::vector<std::array<double, 2>> path;           ///< travel mm, force N
+  /// Samples of the smooth surface: place at rest, displacement, area, pressure, one entry each.
+  std::vector<Eigen::Vector3d> sample_mm, sample_u_mm;
+  std::vector<double> sample_mm2, pressure_kPa;
+};
+
 /// One simulated retraction, back in mm and the patient frame.
 struct Result {
   image::DisplacementField u_mm;            ///< at cell centres of the model's grid, 0 outside
@@ -59,12 +82,14 @@ struct Result {
   bool drawable = true;               ///< false: not converged, inverted cells, displacement larger than the body
   std::optional<Eigen::Vector3d> retractorPoint_mm;  ///< centre of the contact
   double contactArea_mm2 = 0.0;                      ///< that bears on the liver, seen along the hoist
-  std::vector<int> contactNodes;
+  std::vector<int> contactNodes;                     ///< of a patch
+  std::optional<RigidContact> contact;               ///< of a rigid bar
 };
 
 /// Builds the mechanics problem (the one crossing from mm and kPa to SI) and solves it.
 /// Corotational and hyperelastic kinematics: static, voxel hexahedra. Tetrahedra: static, linear; dofs are those of the
 /// tetrahedra, body forces are consistent with them, all other loads act at the voxel corners.
+/// A retractor with rigid contact: static, voxel hexahedra, linear or hyperelastic; kinematics Auto are hyperelastic there.
 /// Throws BadInput (no support, no contact, unknown region, a model that does not offer what is asked for),
 /// SolverFailed where a condensed column does not converge; else the status is in the result.
 Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,

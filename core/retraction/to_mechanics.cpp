@@ -1,4 +1,5 @@
 // The one crossing from mm, kPa and LPS to m, Pa and the grid's own axes, for supports and loads.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -7,6 +8,7 @@
 #include "base/error.h"
 #include "mechanics/supports.h"
 #include "retraction/body.h"
+#include "retraction/rigid_contact.h"
 
 namespace glisson::retraction {
 namespace {
@@ -84,6 +86,7 @@ struct LoadBuilder {
   const Body& body;
   const Model& model;
   std::optional<Contact>& contact;
+  bool rigid;
 
   std::vector<FaceTraction> operator()(const BodyForce&) const { return {}; }
   std::vector<FaceTraction> operator()(const Traction& load) const {
@@ -99,9 +102,9 @@ struct LoadBuilder {
     return out;
   }
   std::vector<FaceTraction> operator()(const Retractor& load) const {
-    if (contact) throw BadInput("the scene has two retractors; keep one");
+    if (rigid) return {};  // the bar is no load: the contact solver moves it
     const Eigen::Vector3d at_mm =
-        load.at_mm ? *load.at_mm : findHoistPoint(body, load, anatomy::inferiorRightLobePoint(bodyMask(model)));
+        load.at_mm ? *load.at_mm : defaultHoistPoint(body, model, load);
     contact = findContact(body, load, at_mm);
     const double force_N = load.force_N ? *load.force_N : model.mass_kg * defaults::gravity_m_s2;
     const Eigen::Vector3d local_N = body.vectorToLocal(force_N * load.direction.normalized());
@@ -131,6 +134,10 @@ void requireSupported(const Body& body, const mechanics::Supports& supports) {
 
 }  // namespace
 
+Eigen::Vector3d defaultHoistPoint(const Body& body, const Model& model, const Retractor& retractor) {
+  return findHoistPoint(body, retractor, anatomy::inferiorRightLobePoint(bodyMask(model)));
+}
+
 MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& setup) {
   MechanicsScene scene;
   scene.problem.body = body.voxels();
@@ -147,9 +154,13 @@ MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& se
   for (const auto& [node, f] : fixations) scene.problem.supports.fixations.push_back(f);
   if (!setup.analysis.dynamic) requireSupported(body, scene.problem.supports);
 
+  if (std::count_if(setup.loads.begin(), setup.loads.end(),
+                    [](const LoadSpec& load) { return std::holds_alternative<Retractor>(load); }) > 1)
+    throw BadInput("the scene has two retractors; keep one");
+  const bool rigid = rigidBarOf(setup).has_value();
   scene.problem.f_N = zeroField(body);
   for (const LoadSpec& load : setup.loads) {
-    scene.tractions.push_back(std::visit(LoadBuilder{body, model, scene.contact}, load));
+    scene.tractions.push_back(std::visit(LoadBuilder{body, model, scene.contact, rigid}, load));
     const auto* weight = std::get_if<BodyForce>(&load);
     scene.loads_N.push_back(weight ? mechanics::bodyForce(body.mesh(), body.vectorToLocal(weight->N_per_m3))
                                    : nodalForces(body, scene.tractions.back()));

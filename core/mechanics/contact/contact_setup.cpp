@@ -19,21 +19,22 @@ std::size_t slotOf(const SolidLevel& level, const VoxelMesh& mesh, int node) {
   return level.lattice->slot(at.x(), at.y(), at.z());
 }
 
-/// The filled cell that carries a point: the one it lies in, or the nearest.
-std::optional<Eigen::Vector3i> carrier(const SolidLevel& level, const Eigen::Vector3d& p_m) {
-  const Eigen::Vector3d q = p_m.cwiseQuotient(level.moduli.h_m);
+}  // namespace
+
+std::optional<Eigen::Vector3i> carrierCell(const VoxelMesh& mesh, const Eigen::Vector3d& p_m) {
+  const Eigen::Vector3d q = p_m.cwiseQuotient(mesh.h_m());
   const Eigen::Vector3i home = q.array().floor().cast<int>();
-  if (level.filled(home)) return home;
+  if (mesh.isFilled(home.x(), home.y(), home.z())) return home;
   std::optional<Eigen::Vector3i> best;
   double nearest = std::numeric_limits<double>::infinity();
   for (int k = -searchReach; k <= searchReach; ++k)
     for (int j = -searchReach; j <= searchReach; ++j)
       for (int i = -searchReach; i <= searchReach; ++i) {
         const Eigen::Vector3i cell = home + Eigen::Vector3i(i, j, k);
-        if (!level.filled(cell)) continue;
+        if (!mesh.isFilled(cell.x(), cell.y(), cell.z())) continue;
         const Eigen::Vector3d low = cell.cast<double>(), high = low + Eigen::Vector3d::Ones();
-        const Eigen::Vector3d off = (q - q.cwiseMax(low).cwiseMin(high)).cwiseProduct(level.moduli.h_m);
-        const Eigen::Vector3d middle = (q - 0.5 * (low + high)).cwiseProduct(level.moduli.h_m);
+        const Eigen::Vector3d off = (q - q.cwiseMax(low).cwiseMin(high)).cwiseProduct(mesh.h_m());
+        const Eigen::Vector3d middle = (q - 0.5 * (low + high)).cwiseProduct(mesh.h_m());
         const double d = off.squaredNorm() + 1e-6 * middle.squaredNorm();
         if (d < nearest) {
           nearest = d;
@@ -42,8 +43,6 @@ std::optional<Eigen::Vector3i> carrier(const SolidLevel& level, const Eigen::Vec
       }
   return best;
 }
-
-}  // namespace
 
 SolidLevel finestLevel(const ContactProblem& problem) {
   const VoxelBody& body = problem.problem.body;
@@ -83,8 +82,9 @@ std::vector<SurfaceSample> carriedSurface(SolidHierarchy& hierarchy, const Conta
   std::vector<SurfaceSample> surface;
   std::vector<Eigen::Vector3i> cells;
   std::vector<Eigen::Vector3d> places;
+  const VoxelMesh mesh(problem.problem.body);
   for (std::size_t p = 0; p < problem.surface.size(); ++p) {
-    const auto cell = carrier(hierarchy.level(0), problem.surface[p].p_m);
+    const auto cell = carrierCell(mesh, problem.surface[p].p_m);
     if (!cell) continue;
     kept.push_back(p);
     surface.push_back(problem.surface[p]);

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mechanics/contact/contact_energy.h"
 
 namespace glisson::mechanics {
+
+/// The filled cell that carries a point (m, grid axes): the one it lies in, or the nearest within three cells.
+std::optional<Eigen::Vector3i> carrierCell(const VoxelMesh& mesh, const Eigen::Vector3d& p_m);
 
 /// The body's own cells as a level: moduli, clamps and springs.
 SolidLevel finestLevel(const ContactProblem& problem);

@@ -101,14 +101,6 @@ SolidLevel::SolidLevel(CellModuli m) : moduli(std::move(m)), modes(moduli.h_m) {
   for (std::vector<float>* v : {&x, &r, &d, &y}) v->assign(size(), 0.0F);
 }
 
-bool SolidLevel::filled(const Eigen::Vector3i& c) const {
-  return (c.array() >= 0).all() && (c.array() < moduli.cells.array()).all() &&
-         moduli.mu_Pa[(static_cast<std::size_t>(c.z()) * static_cast<std::size_t>(moduli.cells.y()) +
-                       static_cast<std::size_t>(c.y())) *
-                          static_cast<std::size_t>(moduli.cells.x()) +
-                      static_cast<std::size_t>(c.x())] > 0;
-}
-
 CarriedPoint SolidLevel::carry(const Eigen::Vector3i& cell, const Eigen::Vector3d& p_m) const {
   CarriedPoint point;
   const Eigen::Vector3d xi = p_m.cwiseQuotient(moduli.h_m) - cell.cast<double>();

@@ -76,7 +76,6 @@ class SolidLevel {
   std::size_t size() const { return 3 * nodes() + 1; }
   /// Where a point at p (m) lies; the cell must be inside the lattice.
   CarriedPoint carry(const Eigen::Vector3i& cell, const Eigen::Vector3d& p_m) const;
-  bool filled(const Eigen::Vector3i& cell) const;
 
   /// Elastic energy of the cells (J) at u and its gradient (N, overwritten). False where the law is not defined.
   bool forces(SolidLaw law, const double* u, double& energy, double* gradient) const;

@@ -38,9 +38,6 @@ struct Motion {
 };
 Motion motionOf(const retraction::Model& model, const retraction::Result& result);
 
-/// "linear", "corotational", "hyperelastic".
-std::string nameOf(retraction::Kinematics kinematics);
-
 /// Where linear theory was used outside its limits: which kinematics to choose and what that changes. Else empty.
 std::string adviceOn(const retraction::Result& result);
 

@@ -66,6 +66,14 @@ Eigen::Vector3d direction(JsonObject& o, const std::string& key, const Eigen::Ve
   return d.normalized();
 }
 
+/// Force of a retractor, N; nothing for the liver's weight.
+std::optional<double> forceOf(JsonObject& o) {
+  if (!o.has("force")) return {};
+  if (!o.raw("force").is_string()) return positive(o, "force", o.number("force"));
+  o.word("force", {"liver-weight"});
+  return {};
+}
+
 }  // namespace
 
 retraction::SupportSpec readSupport(JsonObject o, const std::filesystem::path& folder) {
@@ -116,12 +124,25 @@ retraction::LoadSpec readLoad(JsonObject o, const std::filesystem::path& folder)
       else
         r.at_mm = o.vector3("at");
     }
-    if (o.has("force")) {
-      if (o.raw("force").is_string())
-        o.word("force", {"liver-weight"});
+    if (o.has("drive")) {
+      JsonObject drive = o.object("drive");
+      if (o.has("force") || int{drive.has("force")} + int{drive.has("travel_mm")} != 1)
+        o.fail("drive", "must hold either \"force\" or \"travel_mm\", and the retractor no \"force\" beside it");
+      if (drive.has("travel_mm"))
+        r.travel_mm = positive(drive, "travel_mm", drive.number("travel_mm"));
       else
-        r.force_N = o.number("force");
+        r.force_N = forceOf(drive);
+      drive.finish();
+    } else {
+      r.force_N = forceOf(o);
     }
+    if (o.has("contact"))
+      r.contact = o.word("contact", {"rigid", "patch"}) == "rigid" ? retraction::ContactKind::Rigid
+                                                                   : retraction::ContactKind::Patch;
+    if (r.contact == retraction::ContactKind::Patch && r.travel_mm)
+      o.fail("contact", "is \"patch\", a pressure, which has no travel: give a force, or \"contact\": \"rigid\"");
+    r.shape = o.word("shape", {"straight", "hook"}, "straight") == "hook" ? retraction::BarShape::Hook
+                                                                         : retraction::BarShape::Straight;
     r.direction = direction(o, "direction", Eigen::Vector3d(0, -1, 0));
     r.axis = direction(o, "axis", Eigen::Vector3d(1, 0, 0));
     if (r.axis.cross(r.direction).norm() < 0.1) o.fail("axis", "is (nearly) parallel to the direction of the hoist");
