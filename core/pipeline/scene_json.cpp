@@ -127,7 +127,7 @@ struct LoadToJson {
     j["at"] = l.at_mm ? toJson(*l.at_mm) : Json("inferior-right-lobe");
     j["force"] = l.force_N ? Json(*l.force_N) : Json("liver-weight");
     j["direction"] = toJson(l.direction);
-    j["axis"] = toJson(l.axis);
+    if (l.axis) j["axis"] = toJson(*l.axis);
     return j;
   }
 };
