@@ -72,6 +72,7 @@ std::vector<std::filesystem::path> writeCohort(const PhantomOptions& options, co
     PhantomOptions one;
     one.number = static_cast<int>(i) + 1;
     one.shear_kPa = draws[i].shear_kPa;
+    one.shape = options.shape;
     const PhantomPatient patient = makePhantom(draws[i].seed, one, part.part(0.0, 0.8));
     part.report(0.8, "writing " + std::string(name));
     writePhantom(patient, folder / name);

@@ -105,8 +105,9 @@ PhantomPatient makePhantom(std::uint64_t seed, const PhantomOptions& options, co
   PhantomPatient patient;
   patient.number = options.number;
   patient.truth.seed = seed;
+  patient.truth.shape = options.shape;
   progress.report(0.0, "anatomy");
-  const Torso torso(seed);
+  const Torso torso(seed, options.shape);
 
   // MRE planes lie at multiples of 10 mm and hold the whole liver; the MRI reaches one such step further.
   const double lowest = std::floor(torso.liverBottom_mm() / mreSlice_mm) * mreSlice_mm;

@@ -9,6 +9,7 @@
 
 #include "base/progress.h"
 #include "image/volume.h"
+#include "phantom/liver_shape.h"
 #include "roi/contour_stack.h"
 
 namespace glisson::phantom {
@@ -20,6 +21,7 @@ struct PhantomOptions {
   bool paperCohort =
       false;       ///< stiffness by quota: 30 % above 3.1 kPa, among them 20 % above 4.2 kPa, rest near 2.1 kPa
   int number = 1;  ///< makePhantom: the patient's number, 1 … 9999, for its name and series ("PHANTOM^001")
+  LiverShape shape = LiverShape::Usual;
   std::optional<double> shear_kPa;  ///< makePhantom: the mean shear modulus; drawn between 2 and 6 kPa where absent
 };
 
@@ -34,6 +36,7 @@ struct VesselBranch {
 /// What is known exactly, because it was made so.
 struct PhantomTruth {
   std::uint64_t seed = 0;
+  LiverShape shape = LiverShape::Usual;
   double shear_kPa = 0;            ///< mean µ of the noise-free map over the liver's MRE voxels of adequate confidence
   double wholeLiverShear_kPa = 0;  ///< the same over all MRE voxels whose centre lies in the liver
   double noise_kPa = 0;            ///< standard deviation of the noise added per adequate voxel

@@ -22,9 +22,25 @@ double dome_mm(const Ellipsoid& e, const Point& p) {
   return e.distance_mm(q);
 }
 
+double shareOfUsualVolume(LiverShape shape) {
+  switch (shape) {
+    case LiverShape::Short:
+      return 0.72;
+    case LiverShape::ThinLobe:
+      return 0.68;
+    case LiverShape::Riedel:
+      return 1.10;
+    case LiverShape::Usual:
+    case LiverShape::Wide:
+    case LiverShape::LargeLeft:
+      break;
+  }
+  return 1.0;
+}
+
 }  // namespace
 
-Torso::Torso(std::uint64_t seed) : seed_(seed) {
+Torso::Torso(std::uint64_t seed, LiverShape shape) : seed_(seed) {
   Random r = derived(seed, 11);
   const Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();
   halfWidth_mm_ = r.uniform(162.0, 178.0);
@@ -62,8 +78,39 @@ Torso::Torso(std::uint64_t seed) : seed_(seed) {
             {{-60, -62, -80}, {14, -70, -82}, 14.0},   {{14, -70, -82}, {84, -50, -36}, 14.0},
             {{84, -50, -36}, {108, -8, 2}, 15.0},      {{108, -8, 2}, {110, 22, -140}, 12.0}};
   for (Capsule& piece : colon_) piece.radius_mm *= 1.0 + r.uniform(-0.1, 0.1);
-  fitVolume();
+  reshape(shape);
+  fitVolume(shareOfUsualVolume(shape));
   placeVesselRoots();
+}
+
+void Torso::reshape(LiverShape shape) {
+  switch (shape) {
+    case LiverShape::Usual:
+      break;
+    case LiverShape::Short:
+      rightLobe_.centre_lps_mm.z() += 26.0;
+      rightLobe_.radii_mm.z() *= 0.60;
+      break;
+    case LiverShape::Wide:
+      rightLobe_.radii_mm = rightLobe_.radii_mm.cwiseProduct(Point(1.05, 0.80, 0.76));
+      rightLobe_.centre_lps_mm.z() += 12.0;
+      leftLobe_.centre_lps_mm += Point(34, 4, 0);
+      leftLobe_.radii_mm = leftLobe_.radii_mm.cwiseProduct(Point(1.40, 1.05, 1.05));
+      break;
+    case LiverShape::ThinLobe:
+      rightLobe_.radii_mm.y() *= 0.42;
+      rightLobe_.centre_lps_mm.y() += 4.0;
+      break;
+    case LiverShape::Riedel:
+      tongues_.push_back({{-103, -6, -112}, {30, 25, 74}, rotation(4, 3, 0)});
+      break;
+    case LiverShape::LargeLeft:
+      rightLobe_.radii_mm = rightLobe_.radii_mm.cwiseProduct(Point(0.82, 0.88, 0.80));
+      leftLobe_.centre_lps_mm += Point(30, 14, -6);
+      leftLobe_.radii_mm = leftLobe_.radii_mm.cwiseProduct(Point(1.25, 1.45, 1.50));
+      impressions_[1].radii_mm *= 0.6;  // the stomach gives way
+      break;
+  }
 }
 
 double Torso::body_mm(const Point& p) const {
@@ -118,9 +165,10 @@ double Torso::liverBlobs_mm(const Point& p) const {
 
 double Torso::liver_mm(const Point& p) const {
   double d = liverBlobs_mm(p) + 0.35 * liverOffset_mm_;
-  if (d > 30.0) return d;
+  if (d > 30.0 && tongues_.empty()) return d;
   for (const Ellipsoid& e : impressions_) d = without(d, e.distance_mm(p) - liverOffset_mm_, 14.0);
   d = smoothMin(d, caudate_.distance_mm(p), 8.0);
+  for (const Ellipsoid& e : tongues_) d = smoothMin(d, e.distance_mm(p), 24.0);
   const double cavity = body_mm(p) + wall_mm(p) + 2.5;
   d = smoothMax(d, cavity, 16.0);
   d = smoothMax(d, diaphragm_mm(p) + 1.5, 5.0);
@@ -130,17 +178,18 @@ double Torso::liver_mm(const Point& p) const {
   return without(d, gallbladder_.distance_mm(p) - 1.5, 4.0);
 }
 
-void Torso::fitVolume() {
+void Torso::fitVolume(double share) {
   // A count on a coarse lattice, and a bisection of the offset that fills or hollows the liver, mostly from below:
   // the dome stays under the diaphragm.
   Random r = derived(seed_, 12);
-  targetVolume_mL_ = r.uniform(1300.0, 1850.0);
+  targetVolume_mL_ = share * r.uniform(1300.0, 1850.0);
   constexpr double h = 5.0;
+  const double lowest = tongues_.empty() ? -150.0 : -230.0;
   auto volume_mL = [&] {
     std::size_t count = 0;
     liverTop_mm_ = -1e3;
     liverBottom_mm_ = 1e3;
-    for (double z = -150; z < 130; z += h)
+    for (double z = lowest; z < 130; z += h)
       for (double y = -115; y < 115; y += h)
         for (double x = -170; x < 125; x += h)
           if (liver_mm({x, y, z}) < 0.0) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "phantom/liver_shape.h"
 #include "phantom/shape.h"
 
 namespace glisson::phantom {
@@ -12,7 +13,7 @@ namespace glisson::phantom {
 /// column runs along z at x = 0.
 class Torso {
  public:
-  explicit Torso(std::uint64_t seed);
+  explicit Torso(std::uint64_t seed, LiverShape shape = LiverShape::Usual);
 
   /// Signed distance to the skin, negative inside the body.
   double body_mm(const Point& p) const;
@@ -46,7 +47,8 @@ class Torso {
   Point cavaCentre(double z_mm) const;
   double cava_mm(const Point& p) const;
   double spineMass_mm(const Point& p) const;
-  void fitVolume();
+  void reshape(LiverShape shape);
+  void fitVolume(double share);
   void placeVesselRoots();
 
   std::uint64_t seed_;
@@ -63,6 +65,7 @@ class Torso {
   Ellipsoid rightLobe_, leftLobe_, caudate_;
   std::vector<Ellipsoid> impressions_;  // smooth hollows of the visceral surface
   std::vector<Ellipsoid> fissures_;     // narrow clefts, filled with fat
+  std::vector<Ellipsoid> tongues_;      // what hangs from the liver, in odd shapes only
   Ellipsoid gallbladder_, stomach_, antrum_, spleen_, rightKidney_, leftKidney_, heart_, leftVentricle_,
       rightVentricle_;
   Ellipsoid pancreas_;

@@ -39,6 +39,7 @@ Json truthOf(const PhantomPatient& patient) {
   j["mre_liver_voxels"] = t.liverVoxels;
   j["mre_confident_voxels"] = t.confidentVoxels;
   j["seed"] = t.seed;
+  if (t.shape != LiverShape::Usual) j["shape"] = nameOf(t.shape);  // absent: usual
   j["vessels"] = Json::array();
   for (const VesselBranch& b : t.vessels) {
     Json points = Json::array();

@@ -53,7 +53,7 @@ struct LoadInWords {
   }
   std::string operator()(const retraction::Retractor& l) const {
     std::string t = "a retractor bar of " + number(l.diameter_mm) + " mm diameter and " + number(l.length_mm) +
-                    " mm length along " + inWords(l.axis) + ", ";
+                    " mm length along " + inWords(l.patchAxis()) + ", ";
     t += l.at_mm ? "put at " + inWords(*l.at_mm) + " mm" : "put under the inferior right lobe";
     t += ", lifting along " + inWords(l.direction) + " with " +
          (l.force_N ? number(*l.force_N) + " N" : "the weight of the body");

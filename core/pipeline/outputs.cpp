@@ -66,7 +66,7 @@ render::RetractionScene retractionScene(const Scene& scene, const Inputs& inputs
   p.retractorPoint_lps_mm = r.primary.retractorPoint_mm;
   for (const retraction::LoadSpec& load : scene.setup.loads)
     if (const auto* bar = std::get_if<retraction::Retractor>(&load)) {
-      p.retractorAxis = bar->axis;
+      p.retractorAxis = bar->patchAxis();
       p.retractorDirection = bar->direction;
       p.retractorDiameter_mm = bar->diameter_mm;
       p.retractorLength_mm = bar->length_mm;

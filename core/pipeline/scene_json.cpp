@@ -133,7 +133,7 @@ struct LoadToJson {
     if (l.contact) j["contact"] = *l.contact == retraction::ContactKind::Rigid ? "rigid" : "patch";
     if (l.shape == retraction::BarShape::Hook) j["shape"] = "hook";
     j["direction"] = toJson(l.direction);
-    j["axis"] = toJson(l.axis);
+    if (l.axis) j["axis"] = toJson(*l.axis);
     return j;
   }
 };

@@ -65,6 +65,10 @@ struct Contact {
   double away_mm = 0.0;   ///< of the point given, from the middle of the nearest face that bears
 };
 
+/// Throws BadInput: "no contact", with the distance to the nearest surface that looks against the hoist (infinite:
+/// none).
+[[noreturn]] void refuseContact(const Eigen::Vector3d& at_mm, double nearest_mm);
+
 /// The bar lies against the surface at `at_mm`, across the hoist. It pushes on the connected faces under it that look
 /// against the hoist, uniformly per area seen along the hoist; with spread, the pressure falls off beyond the bar as a
 /// Gaussian. Throws BadInput ("no contact") where `at_mm` is further from such a face than the bar is thick.

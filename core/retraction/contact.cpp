@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 #include <unordered_map>
 
@@ -9,16 +10,23 @@
 namespace glisson::retraction {
 namespace {
 
-std::string inMm(const Eigen::Vector3d& p) {
-  auto one = [](double v) { return std::to_string(static_cast<int>(std::lround(v))); };
-  return "(" + one(p.x()) + ", " + one(p.y()) + ", " + one(p.z()) + ") mm";
+std::string rounded(double v) {
+  return std::to_string(static_cast<int>(std::lround(v)));
 }
 
 }  // namespace
 
+void refuseContact(const Eigen::Vector3d& at_mm, double nearest_mm) {
+  throw BadInput("no contact: the retractor at (" + rounded(at_mm.x()) + ", " + rounded(at_mm.y()) + ", " +
+                 rounded(at_mm.z()) + ") mm is " +
+                 (std::isfinite(nearest_mm) ? rounded(nearest_mm) + " mm away from the nearest surface"
+                                            : std::string("facing no surface")) +
+                 " that looks against its hoist; move it onto the surface");
+}
+
 Eigen::Vector3d findHoistPoint(const Body& body, const Retractor& retractor, const Eigen::Vector3d& inferior_mm) {
   const Eigen::Vector3d hoist = retractor.direction.normalized();
-  const Eigen::Vector3d axis = (retractor.axis - retractor.axis.dot(hoist) * hoist).normalized();
+  const Eigen::Vector3d axis = (retractor.patchAxis() - retractor.patchAxis().dot(hoist) * hoist).normalized();
   const Eigen::Vector3d across = hoist.cross(axis);
   const Eigen::Vector3d up = across.z() < 0 ? Eigen::Vector3d(-across) : across;
   const double step_mm = 1e3 * body.mesh().h_m().minCoeff();
@@ -59,7 +67,7 @@ Eigen::Vector3d findHoistPoint(const Body& body, const Retractor& retractor, con
 
 Contact findContact(const Body& body, const Retractor& retractor, const Eigen::Vector3d& at_mm) {
   const Eigen::Vector3d hoist = retractor.direction.normalized();
-  const Eigen::Vector3d axis = (retractor.axis - retractor.axis.dot(hoist) * hoist).normalized();
+  const Eigen::Vector3d axis = (retractor.patchAxis() - retractor.patchAxis().dot(hoist) * hoist).normalized();
   const Eigen::Vector3d across = hoist.cross(axis);
   // Beyond three standard deviations of the spread the pressure is below 1.2 % of its peak.
   const double reach = 3.0 * retractor.spread_mm;
@@ -82,10 +90,7 @@ Contact findContact(const Body& body, const Retractor& retractor, const Eigen::V
   }
   const double cell_mm = 1e3 * body.mesh().h_m().maxCoeff();
   if (!first || nearest > retractor.diameter_mm + cell_mm)
-    throw BadInput("no contact: the retractor at " + inMm(at_mm) + " is " +
-                   (first ? std::to_string(static_cast<int>(std::lround(nearest))) + " mm away from the nearest surface"
-                          : std::string("facing no surface")) +
-                   " that looks against its hoist; move it onto the surface");
+    refuseContact(at_mm, first ? nearest : std::numeric_limits<double>::infinity());
   if (std::find(candidates.begin(), candidates.end(), first) == candidates.end()) candidates.push_back(first);
 
   // The connected patch around the nearest face: faces that share a node.

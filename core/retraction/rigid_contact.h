@@ -6,6 +6,7 @@
 
 #include "mechanics/contact/contact_solve.h"
 #include "retraction/body.h"
+#include "retraction/pose.h"
 
 namespace glisson::retraction {
 
@@ -22,6 +23,22 @@ struct ContactScene {
 };
 ContactScene contactScene(const Body& body, const Model& model, const Setup& setup, const MechanicsScene& scene,
                           const Retractor& bar);
+
+/// Where the bar lies: as the scene says, or the first place on the lower right lobe that both stiffnesses bear by the
+/// mechanics of coarse cells, to 1.1 of the force.
+struct PlacedBar {
+  Retractor bar;             ///< at_mm and axis set
+  std::optional<Pose> pose;  ///< empty on a box
+  struct Tried {
+    double height_mm = 0.0;  ///< above the lowest point of the right lobe
+    double borne = 0.0;      ///< share of the force that the weaker of both livers bears, 1.1 at most
+  };
+  std::vector<Tried> tried;  ///< places tried, in order; empty if the scene gave one
+  bool bears = true;         ///< false: no place tried bears the force; bar is the best of them
+};
+/// other: the same body with the second stiffness, or null. Throws BadInput if geometry offers no place, or the scene's
+/// point is not on a surface that looks against the hoist.
+PlacedBar placeBar(const Model& model, const Model* other, const Setup& setup, const Progress& progress);
 
 /// An answer on the nodes of the model's own cells, and what bar and liver do to each other.
 struct RigidContactAnswer {

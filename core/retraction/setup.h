@@ -73,10 +73,12 @@ struct Retractor {
   std::optional<Eigen::Vector3d> at_mm;  ///< empty: inferior right lobe, found from geometry
   std::optional<double> force_N;         ///< empty: the liver's weight
   Eigen::Vector3d direction{0, -1, 0};  ///< of the hoist, LPS; "transverse" = towards anterior, in the transverse plane
-  Eigen::Vector3d axis{1, 0, 0};        ///< of the bar, LPS
+  std::optional<Eigen::Vector3d> axis;  ///< of the bar, LPS; empty: from geometry (a rigid bar), x (a patch)
   std::optional<ContactKind> contact;   ///< empty: rigid where model and analysis offer it, else patch
   std::optional<double> travel_mm;      ///< the bar's way from its first touch, instead of a force
   BarShape shape = BarShape::Straight;
+
+  Eigen::Vector3d patchAxis() const { return axis.value_or(Eigen::Vector3d(1, 0, 0)); }
 };
 using LoadSpec = std::variant<BodyForce, Traction, Pressure, Retractor>;
 

@@ -295,7 +295,7 @@ Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen:
   if (std::optional<Retractor> bar = rigidBarOf(setup)) {
     Setup used = setup;
     if (used.kinematics == Kinematics::Auto) used.kinematics = Kinematics::Hyperelastic;
-    if (!bar->at_mm) bar->at_mm = defaultHoistPoint(body, model, *bar);
+    if (!bar->at_mm || !bar->axis) bar = placeBar(model, nullptr, used, progress.part(0.0, 0.3)).bar;
     RigidContactAnswer c = solveRigidContact(body, model, used, scene, *bar, progress);
     Answer answer;
     answer.solution = std::move(c.solution);

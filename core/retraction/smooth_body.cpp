@@ -188,12 +188,16 @@ class Histogram {
   double sample_mm3_ = 0.0;
 };
 
+image::Mask above(const image::ScalarVolume& field, double level) {
+  image::Mask result(field.grid);
+  for (std::size_t i = 0; i < field.values.size(); ++i)
+    result.values[i] = static_cast<double>(field.values[i]) > level ? 1 : 0;
+  return result;
+}
+
 /// Leaves the largest piece above the level; returns the share of the points above it that stay.
 double keepLargest(image::ScalarVolume& field, double level) {
-  image::Mask above(field.grid);
-  for (std::size_t i = 0; i < field.values.size(); ++i)
-    above.values[i] = static_cast<double>(field.values[i]) > level ? 1 : 0;
-  const image::Components parts = image::components(above);
+  const image::Components parts = image::components(above(field, level));
   if (parts.voxels.empty())
     throw BadInput("the body is too small to have a smooth surface: smoothed by 2 mm nothing of it is left");
   if (parts.voxels.size() == 1) return 1.0;
@@ -303,6 +307,10 @@ SmoothBody::SmoothBody(const image::Mask& mask) : field_(smoothed(covered(mask))
     volume_mm3_ *= kept;
   }
   leftOut_mm3_ = all_mm3 - volume_mm3_;
+}
+
+image::Mask SmoothBody::mask() const {
+  return above(field_, level_);
 }
 
 double SmoothBody::value(const Eigen::Vector3d& p_lps_mm) const {

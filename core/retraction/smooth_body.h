@@ -27,6 +27,9 @@ class SmoothBody {
   double level() const { return level_; }
   bool inside(const Eigen::Vector3d& p_lps_mm) const { return value(p_lps_mm) > level_; }
 
+  /// The body on the field's own cubes.
+  image::Mask mask() const;
+
   double volume_mm3() const { return volume_mm3_; }        ///< of the body: of the mask less leftOut_mm3
   double leftOut_mm3() const { return leftOut_mm3_; }      ///< of the pieces that were left out, about
   const image::Grid& grid() const { return field_.grid; }  ///< of the field; its axes are the mask's

@@ -144,8 +144,8 @@ retraction::LoadSpec readLoad(JsonObject o, const std::filesystem::path& folder)
     r.shape = o.word("shape", {"straight", "hook"}, "straight") == "hook" ? retraction::BarShape::Hook
                                                                          : retraction::BarShape::Straight;
     r.direction = direction(o, "direction", Eigen::Vector3d(0, -1, 0));
-    r.axis = direction(o, "axis", Eigen::Vector3d(1, 0, 0));
-    if (r.axis.cross(r.direction).norm() < 0.1) o.fail("axis", "is (nearly) parallel to the direction of the hoist");
+    if (o.has("axis")) r.axis = direction(o, "axis", Eigen::Vector3d(1, 0, 0));
+    if (r.patchAxis().cross(r.direction).norm() < 0.1) o.fail("axis", "is (nearly) parallel to the direction of the hoist");
     load = r;
   }
   o.finish();
