@@ -9,6 +9,7 @@
 #include "mechanics/sites.h"
 #include "pipeline/detail/needs.h"
 #include "pipeline/region_file.h"
+#include "retraction/rigid_contact.h"
 
 namespace glisson::pipeline {
 
@@ -29,7 +30,9 @@ Needs::Needs(const Scene& s) {
   timeSteps = s.setup.analysis.dynamic;
   mass = timeSteps;
   damping = timeSteps && (s.setup.analysis.rayleigh[0] > 0 || s.setup.analysis.rayleigh[1] > 0);
-  newton = s.setup.kinematics != retraction::Kinematics::Linear;
+  rigidBar = retraction::rigidBarOf(s.setup).has_value();
+  const retraction::Kinematics k = s.setup.kinematics;
+  newton = k != retraction::Kinematics::Linear && (k != retraction::Kinematics::Auto || rigidBar);
   condensed = s.setup.condensed;
   linearBeside = newton && report && !timeSteps;
   discretisation = !timeSteps;
@@ -199,7 +202,16 @@ std::vector<PlanStep> plan(const Scene& s) {
       "about " + std::to_string(static_cast<long long>(cells)) + " cells, " +
           std::to_string(static_cast<long long>(dofs)) + " degrees of freedom",
       0.1, 40e-6 * cells);
-  const bool assembled = tets || n.newton || s.setup.solver.kind == mechanics::SolverKind::Factorised;
+  const bool assembled = tets || (n.newton && !n.rigidBar) || s.setup.solver.kind == mechanics::SolverKind::Factorised;
+  add("place-bar", n.rigidBar,
+      n.rigidBar    ? "the first place on the lower right lobe that both stiffnesses bear, or the one that the scene gives"
+      : n.retractor ? "the retractor is a patch of pressure"
+                    : "there is no retractor",
+      2 * solve_s, 0.2 * solve_MB);
+  add("capsule", n.rigidBar && s.setup.capsule.has_value(),
+      !n.rigidBar        ? "there is no rigid bar that would fold the surface"
+      : s.setup.capsule ? "Glisson's capsule carries tension along the surface"
+                        : "the scene leaves it out, or the body is no liver");
   add("assembled-stiffness-matrix", assembled,
       tets        ? "tetrahedra have no common shape: their matrix is put together"
       : n.newton  ? "the tangent changes with every iteration: it is put together anew"

@@ -84,6 +84,19 @@ Json toJson(const Diagnostic& d) {
           {"arguments", std::move(arguments)}};
 }
 
+Json poseToJson(const retraction::PlacedBar& placed) {
+  Json j = {{"centre_mm", toJson(*placed.bar.at_mm)}, {"axis", toJson(*placed.bar.axis)}, {"bears", placed.bears}};
+  if (placed.pose) {
+    j["height_mm"] = placed.pose->height_mm;
+    j["covered_mm"] = placed.pose->covered_mm;
+    j["thickness_mm"] = placed.pose->thickness_mm;
+    j["slope"] = placed.pose->slope;
+  }
+  j["tried"] = Json::array();
+  for (const auto& t : placed.tried) j["tried"].push_back({{"height_mm", t.height_mm}, {"borne", t.borne}});
+  return j;
+}
+
 /// Digest of a file, or of all files of a folder in the order of their names' digests.
 std::string digestOf(const std::filesystem::path& path) {
   if (std::filesystem::is_regular_file(path)) return sha256OfFile(path);
@@ -282,6 +295,7 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
       }
     }
   }
+  if (r.placed) j["pose"] = poseToJson(*r.placed);
   if (r.atlas) j["atlas"] = resultToJson(*r.atlas, scene);
   if (const std::string advice = adviceOn(r.primary); !advice.empty()) j["advice"] = advice;
   if (r.linear) j["kinematics_compared"] = kinematicsToJson(r);

@@ -87,7 +87,7 @@ class Steps {
 /// Only for loads that do not depend on the stiffness and supports that are fixed at zero.
 bool followsByScaling(const Scene& scene, const retraction::Model& model, const retraction::Model& atlas,
                       double& factor) {
-  if (scene.setup.kinematics != retraction::Kinematics::Linear || scene.setup.analysis.dynamic) return false;
+  if (scene.setup.analysis.dynamic || detail::Needs(scene).newton || detail::Needs(scene).rigidBar) return false;
   for (const retraction::SupportSpec& s : scene.setup.supports)
     if (s.kind == retraction::SupportSpec::Kind::Spring || s.displacement_mm != Eigen::Vector3d::Zero()) return false;
   factor = 0.0;
@@ -143,8 +143,22 @@ void requireMemory(const std::vector<PlanStep>& plan) {
     }
 }
 
+std::string whyKinematics(const Scene& scene, const retraction::Result& r) {
+  if (scene.setup.kinematics != retraction::Kinematics::Auto) return "the scene asks for them";
+  return r.contact ? "the bar turns and strains the tissue beyond linear theory"
+                   : "no bar moves through the body";
+}
+
 std::string_view wordOf(bool atlas) {
   return atlas ? "atlas" : "own";
+}
+
+/// No place that was tried bears the force.
+void tellOfPlaces(RunResult& r) {
+  double best = 0.0;
+  for (const auto& t : r.placed->tried) best = std::max(best, t.borne);
+  r.diagnostics.add(DiagnosticCode::NoPlaceBears,
+                    {{"places", static_cast<std::int64_t>(r.placed->tried.size())}, {"percent", 100.0 * best}});
 }
 
 void tellOfSlips(RunResult& r) {
@@ -211,9 +225,17 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     }
   });
 
-  steps.run(needs.timeSteps ? "time-steps" : "solve", [&](const Progress& p) {
-    r.primary = retraction::simulate(r.model, scene.setup, scene.outputs.probes_mm, p);
+  retraction::Setup setup = scene.setup;
+  steps.run("place-bar", [&](const Progress& p) {
+    r.placed = retraction::placeBar(r.model, scene.compare ? &atlasModel : nullptr, setup, p);
+    for (retraction::LoadSpec& load : setup.loads)
+      if (auto* bar = std::get_if<retraction::Retractor>(&load)) *bar = r.placed->bar;
+    if (!r.placed->bears) tellOfPlaces(r);
   });
+  steps.run(needs.timeSteps ? "time-steps" : "solve", [&](const Progress& p) {
+    r.primary = retraction::simulate(r.model, setup, scene.outputs.probes_mm, p);
+  });
+  r.kinematicsWhy = whyKinematics(scene, r.primary);
   r.warnings.insert(r.warnings.end(), r.primary.notes.begin(), r.primary.notes.end());
   if (scene.setup.model.kind == retraction::ModelKind::Meshfree)
     steps.explain("mesh-free-frames", framesInWords(scene.setup.model.meshfree, r.primary));
@@ -223,11 +245,11 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
       r.atlas = r.primary;
       steps.leaveOut("atlas-solve", "the material is the atlas itself: the second answer is the first");
     } else if (followsByScaling(scene, r.model, atlasModel, factor)) {
-      r.atlas = retraction::scaled(atlasModel, scene.setup, scene.outputs.probes_mm, r.primary, factor);
+      r.atlas = retraction::scaled(atlasModel, setup, scene.outputs.probes_mm, r.primary, factor);
       steps.leaveOut("atlas-solve", "one modulus throughout and clamps only: displacement is proportional to 1/E");
     }
     steps.run("atlas-solve", [&](const Progress& p) {
-      r.atlas = retraction::simulate(atlasModel, scene.setup, scene.outputs.probes_mm, p);
+      r.atlas = retraction::simulate(atlasModel, setup, scene.outputs.probes_mm, p);
     });
   }
 
@@ -238,7 +260,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
       std::optional<retraction::SecondAnswer> second;
       if (r.atlas && r.atlas->solver.converged()) second.emplace(atlasModel, *r.atlas);
       r.discretisation =
-          retraction::discretisationError(r.model, scene.setup, r.primary, p, second ? &*second : nullptr);
+          retraction::discretisationError(r.model, setup, r.primary, p, second ? &*second : nullptr);
     });
 
   if (needs.pictures && r.primary.drawable && r.atlas && !r.atlas->drawable)
@@ -247,15 +269,15 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
                          "; spread the load (\"spread_mm\" of the retractor), or choose another model or larger cells");
 
   steps.run("linear-solve", [&](const Progress& p) {
-    retraction::Setup setup = scene.setup;
-    setup.kinematics = retraction::Kinematics::Linear;
+    retraction::Setup inLinearTheory = setup;
+    inLinearTheory.kinematics = retraction::Kinematics::Linear;
     LinearBeside linear;
-    linear.primary = retraction::simulate(r.model, setup, scene.outputs.probes_mm, p.part(0.0, r.atlas ? 0.5 : 1.0));
+    linear.primary = retraction::simulate(r.model, inLinearTheory, scene.outputs.probes_mm, p.part(0.0, r.atlas ? 0.5 : 1.0));
     linear.between = comparison::compare(r.model, r.primary, linear.primary, {});
     if (scene.compare) {
       linear.atlas = detail::sameStiffness(r.model, atlasModel)
                          ? linear.primary
-                         : retraction::simulate(atlasModel, setup, scene.outputs.probes_mm, p.part(0.5, 1.0));
+                                                  : retraction::simulate(atlasModel, inLinearTheory, scene.outputs.probes_mm, p.part(0.5, 1.0));
       linear.difference = comparison::compare(r.model, linear.primary, *linear.atlas, {});
     }
     r.linear = std::move(linear);

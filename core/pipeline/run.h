@@ -14,6 +14,7 @@
 #include "pipeline/scene.h"
 #include "render/overlay.h"
 #include "retraction/discretisation.h"
+#include "retraction/rigid_contact.h"
 #include "retraction/simulate.h"
 
 namespace glisson::pipeline {
@@ -47,6 +48,7 @@ struct RunResult {
   std::vector<std::filesystem::path> files;            ///< everything written, run.json first
   std::vector<std::string> warnings;
   Diagnostics diagnostics;
+  std::optional<retraction::PlacedBar> placed;  ///< where a rigid bar lies
   std::string kinematicsWhy;  ///< why these kinematics were used
   std::string json;  ///< the run record, as in contract.md
 };

@@ -115,9 +115,14 @@ retraction::Setup held(const retraction::Setup& setup, const retraction::Model& 
 
 namespace {
 
-/// The contact's nodes at rest, mm (LPS).
+/// The contact's nodes at rest, or the samples of the surface that touch the bar, mm (LPS).
 std::vector<Vector3d> contactPoints(const Model& model, const Result& result) {
   std::vector<Vector3d> points;
+  if (result.contact) {
+    for (std::size_t i = 0; i < result.contact->sample_mm.size(); ++i)
+      if (result.contact->pressure_kPa[i] > 0) points.push_back(result.contact->sample_mm[i]);
+    return points;
+  }
   if (result.contactNodes.empty()) return points;
   const Body body(model);
   for (const int node : result.contactNodes) points.push_back(body.nodePosition_mm(node));
@@ -151,7 +156,7 @@ Missed missed(const Model& model, const Setup& setup, const Result& result, cons
   // Tetrahedra of their own size: the same body, in cells twice as large.
   const bool delaunay = setup.model.kind == ModelKind::FemTet && setup.model.delaunay;
   m.cell_mm = delaunay ? setup.model.cell_mm : model.youngs_kPa.grid.spacing_mm.maxCoeff();
-  const bool split = setup.model.kind == ModelKind::FemHex && setup.kinematics == Kinematics::Linear &&
+  const bool split = setup.model.kind == ModelKind::FemHex && setup.kinematics == Kinematics::Linear && !result.contact &&
                      model.cells <= splitLimit && !mergesExactly(model);
   const Model other = delaunay ? model : split ? refined(model) : coarsened(model);
   const Progress rest = progress.part(frames ? 0.8 : 0.0, 1.0);

@@ -29,6 +29,7 @@ struct Needs {
   bool report = false;
   bool sofa = false;
   bool retractor = false;
+  bool rigidBar = false;  ///< the retractor is a body of its own
 };
 
 }  // namespace glisson::pipeline::detail
