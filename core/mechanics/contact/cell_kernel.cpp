@@ -205,13 +205,13 @@ GLISSON_INLINE double forcesOf(const CellModes& modes, const CellRow<double, dou
 
 template <SolidLaw law, int Bytes>
 GLISSON_INLINE void lineariseOf(const CellModes& modes, const CellRow<double, double>& row, const double* mu_,
-                                const double* lambda_, float* state, std::size_t stride) {
+                                const double* lambda_, float* state) {
   using V = typename VectorOf<double, Bytes>::type;
   using F = typename VectorOf<float, Bytes / 2>::type;
   constexpr std::size_t lanes = static_cast<std::size_t>(Bytes) / sizeof(double);
   for (std::size_t i = 0; i < row.n; i += lanes) {
-    const auto store = [&](std::size_t array, const V& value) {
-      *reinterpret_cast<F*>(state + array * stride + i) = __builtin_convertvector(value, F);
+    const auto store = [&](std::size_t array, const V& value) __attribute__((always_inline)) {
+      *reinterpret_cast<F*>(state + TangentArrays::at(array, i)) = __builtin_convertvector(value, F);
     };
     Triple<double, Bytes> d[7];
     if constexpr (law == SolidLaw::Linear)
@@ -265,33 +265,33 @@ GLISSON_INLINE void gradients(const Triple<T, Bytes> (&c)[6], Triple<T, Bytes> (
 }
 
 template <int Bytes>
-GLISSON_INLINE void loadState(const float* state, std::size_t stride, std::size_t i, Triple<float, Bytes> (&c)[6]) {
+GLISSON_INLINE void loadState(const float* state, std::size_t i, Triple<float, Bytes> (&c)[6]) {
   using V = Lanes<float, Bytes>;
 #pragma GCC unroll 6
   for (std::size_t m = 0; m < 6; ++m)
-    c[m] = {*reinterpret_cast<const V*>(state + (3 * m) * stride + i),
-            *reinterpret_cast<const V*>(state + (3 * m + 1) * stride + i),
-            *reinterpret_cast<const V*>(state + (3 * m + 2) * stride + i)};
+    c[m] = {*reinterpret_cast<const V*>(state + TangentArrays::at(3 * m, i)),
+            *reinterpret_cast<const V*>(state + TangentArrays::at(3 * m + 1, i)),
+            *reinterpret_cast<const V*>(state + TangentArrays::at(3 * m + 2, i))};
 }
 
 template <int Bytes>
 GLISSON_INLINE void tangentOf(const CellModes& modes, const CellRow<float, float>& row, const float* state,
-                              std::size_t stride, std::size_t pressure) {
+                              std::size_t pressure) {
   using V = typename VectorOf<float, Bytes>::type;
   constexpr std::size_t lanes = static_cast<std::size_t>(Bytes) / sizeof(float);
   V carry[4][3] = {};
   for (std::size_t i = 0; i < row.n; i += lanes) {
-    const auto at = [&](std::size_t array) { return *reinterpret_cast<const V*>(state + array * stride + i); };
+    const auto at = [&](std::size_t array) __attribute__((always_inline)) { return *reinterpret_cast<const V*>(state + TangentArrays::at(array, i)); };
     Triple<float, Bytes> d[7], c[6], g[6], s[7];
     loadModes(modes, row, i, d);
-    loadState(state, stride, i, c);
+    loadState(state, i, c);
     gradients(c, g);
     V along = dot(g[0], d[0]);
 #pragma GCC unroll 5
     for (int m = 1; m < 6; ++m) along += dot(g[m], d[m]);
     along *= at(TangentArrays::lambda);
     const V mu = at(TangentArrays::mu), p = at(pressure);
-    const auto mode = [&](int m, const Triple<float, Bytes>& turned) {
+    const auto mode = [&](int m, const Triple<float, Bytes>& turned) __attribute__((always_inline)) {
       const V share = mu * static_cast<float>(modes.w[static_cast<std::size_t>(m)]);
       s[m] = share * d[m] + p * turned + along * g[m];
     };
@@ -309,16 +309,16 @@ GLISSON_INLINE void tangentOf(const CellModes& modes, const CellRow<float, float
 
 template <int Bytes>
 GLISSON_INLINE void diagonalOf(const CellModes& modes, float* const out[4], std::size_t nodes, std::size_t n,
-                               const float* state, std::size_t stride) {
+                               const float* state) {
   using V = typename VectorOf<float, Bytes>::type;
   constexpr std::size_t lanes = static_cast<std::size_t>(Bytes) / sizeof(float);
   float even = 0;
   for (std::size_t m = 0; m < 7; ++m) even += static_cast<float>(modes.w[m] * modes.alpha[m] * modes.alpha[m]);
   V carry[4][6] = {};
   for (std::size_t i = 0; i < n; i += lanes) {
-    const auto at = [&](std::size_t array) { return *reinterpret_cast<const V*>(state + array * stride + i); };
+    const auto at = [&](std::size_t array) __attribute__((always_inline)) { return *reinterpret_cast<const V*>(state + TangentArrays::at(array, i)); };
     Triple<float, Bytes> c[6], g[6];
-    loadState(state, stride, i, c);
+    loadState(state, i, c);
     gradients(c, g);
     V w[2][4][3] = {};
 #pragma GCC unroll 6
@@ -381,22 +381,21 @@ struct Kernels {
     return forcesOf<SolidLaw::Linear, Bytes>(modes, row, mu, lambda, good);
   }
   GLISSON_INLINE static void linearise(SolidLaw law, const CellModes& modes, const CellRow<double, double>& row,
-                                       const double* mu, const double* lambda, float* state, std::size_t stride) {
+                                       const double* mu, const double* lambda, float* state) {
     if (law == SolidLaw::Polynomial)
-      lineariseOf<SolidLaw::Polynomial, Bytes>(modes, row, mu, lambda, state, stride);
+      lineariseOf<SolidLaw::Polynomial, Bytes>(modes, row, mu, lambda, state);
     else if (law == SolidLaw::Logarithmic)
-      lineariseOf<SolidLaw::Logarithmic, Bytes>(modes, row, mu, lambda, state, stride);
+      lineariseOf<SolidLaw::Logarithmic, Bytes>(modes, row, mu, lambda, state);
     else
-      lineariseOf<SolidLaw::Linear, Bytes>(modes, row, mu, lambda, state, stride);
+      lineariseOf<SolidLaw::Linear, Bytes>(modes, row, mu, lambda, state);
   }
 };
 
 struct Table {
   double (*forces)(SolidLaw, const CellModes&, const CellRow<double, double>&, const double*, const double*, bool&);
-  void (*linearise)(SolidLaw, const CellModes&, const CellRow<double, double>&, const double*, const double*, float*,
-                    std::size_t);
-  void (*tangent)(const CellModes&, const CellRow<float, float>&, const float*, std::size_t, std::size_t);
-  void (*diagonal)(const CellModes&, float* const[4], std::size_t, std::size_t, const float*, std::size_t);
+  void (*linearise)(SolidLaw, const CellModes&, const CellRow<double, double>&, const double*, const double*, float*);
+  void (*tangent)(const CellModes&, const CellRow<float, float>&, const float*, std::size_t);
+  void (*diagonal)(const CellModes&, float* const[4], std::size_t, std::size_t, const float*);
   double (*smallest)(const CellModes&, const CellRow<double, double>&, const double*, double);
 };
 
@@ -406,16 +405,15 @@ struct Table {
     return Kernels<bytes>::forces(law, modes, row, mu, lambda, good);                                                  \
   }                                                                                                                    \
   attribute void linearise##name(SolidLaw law, const CellModes& modes, const CellRow<double, double>& row,             \
-                                 const double* mu, const double* lambda, float* state, std::size_t stride) {           \
-    Kernels<bytes>::linearise(law, modes, row, mu, lambda, state, stride);                                             \
+                                 const double* mu, const double* lambda, float* state) {           \
+    Kernels<bytes>::linearise(law, modes, row, mu, lambda, state);                                             \
   }                                                                                                                    \
-  attribute void tangent##name(const CellModes& modes, const CellRow<float, float>& row, const float* state,           \
-                               std::size_t stride, std::size_t pressure) {                                             \
-    tangentOf<bytes>(modes, row, state, stride, pressure);                                                             \
+  attribute void tangent##name(const CellModes& modes, const CellRow<float, float>& row, const float* state, std::size_t pressure) {                                             \
+    tangentOf<bytes>(modes, row, state, pressure);                                                             \
   }                                                                                                                    \
   attribute void diagonal##name(const CellModes& modes, float* const out[4], std::size_t nodes, std::size_t n,         \
-                                const float* state, std::size_t stride) {                                              \
-    diagonalOf<bytes>(modes, out, nodes, n, state, stride);                                                            \
+                                const float* state) {                                              \
+    diagonalOf<bytes>(modes, out, nodes, n, state);                                                            \
   }                                                                                                                    \
   attribute double smallest##name(const CellModes& modes, const CellRow<double, double>& row, const double* mu,        \
                                   double start) {                                                                      \
@@ -473,18 +471,17 @@ double addCellForces(SolidLaw law, const CellModes& modes, const CellRow<double,
 }
 
 void lineariseCells(SolidLaw law, const CellModes& modes, const CellRow<double, double>& row, const double* mu,
-                    const double* lambda, float* state, std::size_t stride) {
-  fastest().linearise(law, modes, row, mu, lambda, state, stride);
+                    const double* lambda, float* state) {
+  fastest().linearise(law, modes, row, mu, lambda, state);
 }
 
-void addCellTangent(const CellModes& modes, const CellRow<float, float>& row, const float* state, std::size_t stride,
+void addCellTangent(const CellModes& modes, const CellRow<float, float>& row, const float* state,
                     bool positive) {
-  fastest().tangent(modes, row, state, stride, positive ? TangentArrays::positive : TangentArrays::p);
+  fastest().tangent(modes, row, state, positive ? TangentArrays::positive : TangentArrays::p);
 }
 
-void addCellDiagonal(const CellModes& modes, float* const out[4], std::size_t nodes, std::size_t n, const float* state,
-                     std::size_t stride) {
-  fastest().diagonal(modes, out, nodes, n, state, stride);
+void addCellDiagonal(const CellModes& modes, float* const out[4], std::size_t nodes, std::size_t n, const float* state) {
+  fastest().diagonal(modes, out, nodes, n, state);
 }
 
 double smallestVolumeRatio(const CellModes& modes, const CellRow<double, double>& row, const double* mu,

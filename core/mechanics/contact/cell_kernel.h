@@ -33,10 +33,14 @@ struct CellRow {
   std::size_t n = 0;  ///< cells, a multiple of RowLattice::pad
 };
 
-/// The linearised cells, one array each of `stride` values behind `base`: c_1..c_6 (18 arrays), p, p of the positive
-/// part, λ″, µ. All but c are multiplied by the cell's filled volume (m³), so in N m.
+/// The linearised cells: c_1..c_6 (18 values), p, p of the positive part, λ″, µ; all but c are multiplied by the cell's
+/// filled volume (m³), so in N m. Stored sixteen cells at a time, value by value, so that a kernel reads one stream.
 struct TangentArrays {
   static constexpr std::size_t p = 18, positive = 19, lambda = 20, mu = 21, count = 22;
+  static constexpr std::size_t block = 16;  ///< RowLattice::pad
+  static constexpr std::size_t at(std::size_t value, std::size_t cell) {
+    return (cell / block * count + value) * block + cell % block;
+  }
 };
 
 /// Energy (J) and nodal forces (N, added to row.out) of a row of cells at displacements row.in (m). mu, lambda: Lamé's
@@ -44,19 +48,17 @@ struct TangentArrays {
 double addCellForces(SolidLaw law, const CellModes& modes, const CellRow<double, double>& row, const double* mu,
                      const double* lambda, bool& good);
 
-/// The tangent of a row of cells at displacements row.in; state: array of the row's first cell.
+/// The tangent of a row of cells at displacements row.in; state: of the row's first cell.
 void lineariseCells(SolidLaw law, const CellModes& modes, const CellRow<double, double>& row, const double* mu,
-                    const double* lambda, float* state, std::size_t stride);
+                    const double* lambda, float* state);
 
 /// row.out += tangent · row.in. positive: its positive part, p clamped to ±µ/σ, σ the largest singular value of
 /// [c1 c2 c3] (or a bound of it from above).
-void addCellTangent(const CellModes& modes, const CellRow<float, float>& row, const float* state, std::size_t stride,
-                    bool positive);
+void addCellTangent(const CellModes& modes, const CellRow<float, float>& row, const float* state, bool positive);
 
 /// Adds the 3 × 3 diagonal blocks of the tangent to six arrays (xx xy xz yy yz zz) of `nodes` values each: out[r] points
 /// to the row's first node in the first array. p has no part in them.
-void addCellDiagonal(const CellModes& modes, float* const out[4], std::size_t nodes, std::size_t n, const float* state,
-                     std::size_t stride);
+void addCellDiagonal(const CellModes& modes, float* const out[4], std::size_t nodes, std::size_t n, const float* state);
 
 /// Smallest mean det F over the filled cells of a row, starting from `smallest`.
 double smallestVolumeRatio(const CellModes& modes, const CellRow<double, double>& row, const double* mu,

@@ -32,6 +32,7 @@ ContactEnergy::ContactEnergy(const SolidHierarchy& hierarchy, std::vector<Surfac
     : hierarchy_(hierarchy), surface_(std::move(surface)), law_(problem.law), bar_(problem.bar) {
   barrier_.width_m = options.zone_m;
   barrier_.kappa_Pa_m = std::max(softest_Pa_m, 1e3 * meanModulus(problem.problem.body)) * 1e-3 / options.zone_m;
+  if (bar_) barrier_.guard_m = 0.4 * bar_->radius_m;
   if (bar_) bringToTouch();
 }
 

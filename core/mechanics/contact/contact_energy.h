@@ -35,7 +35,7 @@ class ContactEnergy {
     top_ = top;
     loads_ = loads;
   }
-  /// False where the law or the contact is not defined (a sample deeper than half the zone).
+  /// False where the law or the contact is not defined (a sample deeper than the guard).
   bool evaluate(const State& at, std::optional<double> force_N, bool travels, Value& value) const;
   /// True where no sample passes through the bar on the straight way from one state to the next.
   bool passes(const State& from, const State& to) const;

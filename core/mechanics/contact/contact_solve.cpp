@@ -101,7 +101,7 @@ bool Solver::follow(State& state) {
     }
     if (!good) {
       step *= 0.6;
-      if (step < 3e-3) extrapolate = false;
+      if (step < 1.5e-3) extrapolate = false;
       if (step < shortestStep_m)
         return ended(has ? ContactOutcome::Reached : indefinite && best > 0 ? ContactOutcome::Slips : ContactOutcome::Stopped,
                      !has && indefinite);

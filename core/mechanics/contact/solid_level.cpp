@@ -165,7 +165,7 @@ void SolidLevel::linearise(SolidLaw law, const double* u, const std::vector<Poin
         const RowLattice::Row& row = L.cellRow(j, k);
         if (row.length == 0) continue;
         lineariseCells(law, modes, rowOf<double, double>(L, j, k, u, nullptr), mu.data() + row.offset,
-                       lambda.data() + row.offset, state_.data() + row.offset, L.cellSlots());
+                       lambda.data() + row.offset, state_.data() + TangentArrays::count * row.offset);
       }
   });
   contact_ = contact;
@@ -186,7 +186,7 @@ void SolidLevel::makeBlocks() {
       if (row.length == 0) continue;
       float* out[4];
       for (int q = 0; q < 4; ++q) out[q] = block_.data() + L.slot(row.begin, j + (q & 1), k + (q >> 1));
-      addCellDiagonal(modes, out, n, static_cast<std::size_t>(row.length), state_.data() + row.offset, L.cellSlots());
+      addCellDiagonal(modes, out, n, static_cast<std::size_t>(row.length), state_.data() + TangentArrays::count * row.offset);
     }
   });
   for (const SlotSpring& s : springs)
@@ -257,7 +257,7 @@ void SolidLevel::apply(const float* in, float* out, bool positive) const {
     for (int j = 0; j < L.cells().y(); ++j) {
       const RowLattice::Row& row = L.cellRow(j, k);
       if (row.length > 0)
-        addCellTangent(modes, rowOf(L, j, k, in, out), state_.data() + row.offset, L.cellSlots(), positive);
+        addCellTangent(modes, rowOf(L, j, k, in, out), state_.data() + TangentArrays::count * row.offset, positive);
     }
   });
   for (const SlotSpring& s : springs) {
