@@ -114,8 +114,10 @@ MaterialSpec readMaterial(JsonObject& scene, Setup& setup, const std::filesystem
     m.kind = o.word("source", {"mre", "atlas"}) == "mre" ? MaterialSpec::Kind::Mre : MaterialSpec::Kind::Atlas;
   }
   readPoissonAndDensity(o, setup);
-  if (o.word("law", {"neo-hookean", "neo-hookean-polynomial"}, "neo-hookean") == "neo-hookean-polynomial")
-    setup.law = mechanics::SolidLaw::Polynomial;
+  if (o.has("law"))
+    setup.law = o.word("law", {"neo-hookean-log", "neo-hookean-polynomial"}) == "neo-hookean-log"
+                    ? mechanics::SolidLaw::Logarithmic
+                    : mechanics::SolidLaw::Polynomial;
   o.finish();
   return m;
 }

@@ -71,7 +71,8 @@ Json toJson(const MaterialSpec& m, const retraction::Setup& setup, const std::fi
   }
   j["poisson"] = setup.poisson;
   j["density_kg_m3"] = setup.density.kgPerM3();
-  if (setup.law == mechanics::SolidLaw::Polynomial) j["law"] = "neo-hookean-polynomial";
+  if (setup.law)
+    j["law"] = *setup.law == mechanics::SolidLaw::Polynomial ? "neo-hookean-polynomial" : "neo-hookean-log";
   return j;
 }
 

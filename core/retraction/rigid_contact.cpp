@@ -271,7 +271,8 @@ ContactScene contactScene(const Body& body, const Model& model, const Setup& set
     const Eigen::Vector3i at = body.mesh().latticeOf(node) + out.layers;
     if (const int to = mesh.nodeAt(at.x(), at.y(), at.z()); to >= 0) p.problem.f_N.col(to) += scene.problem.f_N.col(node);
   }
-  p.law = setup.kinematics == Kinematics::Linear ? mechanics::SolidLaw::Linear : setup.law;
+  p.law = setup.kinematics == Kinematics::Linear ? mechanics::SolidLaw::Linear
+                                                  : setup.law.value_or(mechanics::SolidLaw::Polynomial);
   if (setup.capsule) p.skin_Pa = capsuleCells(p.problem.body, p.surface, *setup.capsule);
   p.bar = barOf(body, bar, *bar.at_mm, shift_m);
   if (bar.travel_mm)

@@ -120,7 +120,9 @@ struct Setup {
   Kinematics kinematics = Kinematics::Linear;
   AnalysisSpec analysis;
   mechanics::SolverOptions solver;
-  mechanics::SolidLaw law = mechanics::SolidLaw::Logarithmic;  ///< Hyperelastic: which neo-Hookean energy
+  /// Hyperelastic: which neo-Hookean energy. Empty: with a rigid bar the polynomial one, which stays defined where a
+  /// state on the way folds a cell; else the logarithmic one.
+  std::optional<mechanics::SolidLaw> law;
   std::optional<Capsule> capsule;  ///< rigid contact only; empty: none
   bool condensed = false;  ///< answer through the condensed response of the full model instead of the solve itself
   std::uint64_t seed = 1;

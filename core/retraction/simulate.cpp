@@ -225,7 +225,11 @@ void judge(const Body& body, const mechanics::Solution& s, Result& r) {
   if (r.contact && !linear) {
     // Cut cells that the bar folds say nothing about the body; the mean volume of those that count does.
     r.validity.clear();
-    r.linearTrusted = r.drawable = s.report.converged() && r.contact->smallestJ > 0;
+    r.drawable = s.report.converged();
+    r.linearTrusted = r.drawable && r.contact->smallestJ > 0;
+    if (r.drawable && !r.linearTrusted)
+      r.validity.push_back("the bar folds the surface: a cell there is turned inside out, and places within a cell of it "
+                           "are not to be trusted");
   }
   if (r.kinematics == Kinematics::Corotational && m.p95Strain >= 0.10) {
     r.linearTrusted = false;
