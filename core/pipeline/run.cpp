@@ -200,8 +200,13 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     });
   }
 
+  if (r.atlas)
+    for (const std::string& w : r.atlas->solver.diagnostics.texts(Severity::Warning))
+      r.warnings.push_back("atlas: " + w);
+
   if (!options.discretisation)
-    steps.leaveOut("discretisation-error", "a study that measures errors itself does without the estimate");
+    for (const char* step : {"discretisation-error", "linear-gap"})
+      steps.leaveOut(step, "a study that measures errors itself does without the estimate");
   if (r.primary.solver.converged())
     steps.run("discretisation-error", [&](const Progress& p) {
       std::optional<retraction::SecondAnswer> second;
@@ -233,6 +238,13 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   anatomy::VesselModel vessels;
   steps.run("vessels", [&](const Progress& p) { vessels = anatomy::findVessels(*inputs.mri, *inputs.liver, p); });
   r.landmarks_mm = vessels.centreline_lps_mm;
+  steps.run("linear-gap", [&](const Progress& p) {
+    retraction::judgeByGap(r.model, scene.setup, r.landmarks_mm, r.primary, p.part(0.0, r.atlas ? 0.5 : 1.0));
+    if (r.atlas && detail::sameStiffness(r.model, atlasModel))
+      r.atlas = r.primary;
+    else if (r.atlas)
+      retraction::judgeByGap(atlasModel, scene.setup, r.landmarks_mm, *r.atlas, p.part(0.5, 1.0));
+  });
   steps.run("difference", [&](const Progress&) {
     r.difference = comparison::compare(r.model, r.primary, *r.atlas, vessels.centreline_lps_mm);
   });
