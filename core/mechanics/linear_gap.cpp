@@ -8,7 +8,7 @@
 #include "mechanics/meshfree_solve.h"
 #include "mechanics/multigrid.h"
 #include "mechanics/newton_tangent.h"
-#include "mechanics/static_solve.h"
+#include "mechanics/supports.h"
 
 namespace glisson::mechanics {
 namespace {
@@ -92,6 +92,10 @@ LinearGap linearGap(const Problem& problem, const NodalField& u_m, const SolverO
                       std::to_string(mesh.nodeCount()));
   if (3 * mesh.nodeCount() > largeDeformationLimit) {
     gap.why = "the body has more than " + std::to_string(largeDeformationLimit) + " degrees of freedom";
+    return gap;
+  }
+  if (!findUnsupported(mesh, problem.supports).empty()) {
+    gap.why = "the body is not held";
     return gap;
   }
   progress.report(0, "what linear theory misses");

@@ -28,10 +28,10 @@ struct LinearGap {
 /// answer of another mesh too. It is quadratic in a small load, its own error of third order, and it grows without
 /// bound near a loss of stability. The sign of K_T comes from a Cholesky factor up to 3,000 degrees of freedom and from
 /// conjugate gradients above, which also solve for a random smooth load so that a symmetric mode cannot hide; a mode
-/// whose stiffness is below a ten-thousandth of the body's softest may be missed. Not computed: a cell of the linear
-/// answer is inside out, the body has more than largeDeformationLimit degrees of freedom, or no solver comes near.
-/// options.element is that of the linear answer. Throws BadArgument on wrong sizes; Cancelled. The same bits with any
-/// number of threads.
+/// whose stiffness is below a ten-thousandth of the body's softest may be missed. Not computed: nothing holds the body,
+/// a cell of the linear answer is inside out, the body has more than largeDeformationLimit degrees of freedom, or no
+/// solver comes near. options.element is that of the linear answer. Throws BadArgument on wrong sizes; Cancelled. The
+/// same bits with any number of threads.
 LinearGap linearGap(const Problem& problem, const NodalField& u_m, const SolverOptions& options = {},
                     const Progress& progress = {});
 

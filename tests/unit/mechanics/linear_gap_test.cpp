@@ -118,6 +118,11 @@ TEST(LinearGap, SaysWhyItIsNotThere) {
   EXPECT_FALSE(gap.computed);
   EXPECT_NE(gap.why.find("inside out"), std::string::npos);
   EXPECT_THROW(linearGap(p, NodalField::Zero(3, 4)), BadArgument);
+  Problem adrift = p;
+  adrift.supports = {};
+  const LinearGap none = linearGap(adrift, NodalField::Zero(3, mesh.nodeCount()));
+  EXPECT_EQ(none.stability, Stability::Unknown);
+  EXPECT_EQ(none.why, "the body is not held");
 }
 
 }  // namespace
