@@ -25,7 +25,7 @@ constexpr int manyLoadsSize = 6000;    ///< degrees of freedom that are factoris
 constexpr int manyLoads = 8;           ///< loads solved by iteration before that
 constexpr double hardContrast = 1e3;   ///< of moduli, where multigrid by mean moduli begins to slow down
 constexpr double hardPoisson = 0.495;  ///< likewise
-constexpr int hardSize = 10000;        ///< degrees of freedom up to which a factor is quicker all the same
+constexpr int hardSize = 30000;        ///< degrees of freedom up to which a factor is worth its second and its 300 MB
 constexpr int multigridLimit = 1000;   ///< iterations before Auto falls back
 
 }  // namespace

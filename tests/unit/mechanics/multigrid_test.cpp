@@ -189,7 +189,9 @@ TEST(Multigrid, ConvergesOverElementsPoissonsRatiosAndContrasts) {
       EXPECT_LE(iterationsOf(clampedBox(17, nu, smooth), element), 30) << nu;
       EXPECT_LE(iterationsOf(clampedBox(17, nu, ball(10)), element), 30) << nu;
       // A power iteration falls short of the largest eigenvalue on bodies of this size.
-      if (nu > 0.3 && nu < 0.46) EXPECT_LE(iterationsOf(clampedBox(32, nu, one), element), 30) << nu;
+      if (nu > 0.3 && nu < 0.46) {
+        EXPECT_LE(iterationsOf(clampedBox(32, nu, one), element), 30) << nu;
+      }
     }
   for (const HexElement element : everyElement) {
     for (const double contrast : {1e-6, 1e3, 1e6})

@@ -56,7 +56,9 @@ TEST(LinearGapInMm, DecidesWhatIsTrusted) {
     const Result large = simulate(m, s, {});
     const double missed_mm = 1e3 * (large.nodal_u_m - r.nodal_u_m).colwise().norm().maxCoeff();
     EXPECT_NEAR(r.linearGap->max_mm, missed_mm, 0.25 * missed_mm);
-    if (!trusted) EXPECT_THAT(r.validity, Contains(HasSubstr("linear theory misses up to")));
+    if (!trusted) {
+      EXPECT_THAT(r.validity, Contains(HasSubstr("linear theory misses up to")));
+    }
     // Near its landmarks at the clamp it misses little whatever the tip does.
     EXPECT_TRUE(linearGap(m, pulled({0, 0, 0}, 0.0), r, {{5, 5, 5}}).trusted());
     EXPECT_TRUE(kinematicsValid(large));
