@@ -64,9 +64,11 @@ void addRun(CLI::App& app, Context& context) {
       if (!r.primary.solver.converged() || (r.atlas && !r.atlas->solver.converged())) {
         std::cerr << "glisson-cli: the solve did not converge (" << r.primary.solver.kind << ", residual "
                   << r.primary.solver.residual << "); its result is marked and not drawn: "
-                  << (scene.setup.kinematics == retraction::Kinematics::Linear
-                          ? "raise \"iterations\" or use solver \"auto\""
-                          : "this load folds the body; lower it, spread it or stiffen the supports")
+                  << (scene.setup.kinematics != retraction::Kinematics::Linear
+                          ? "this load folds the body; lower it, spread it or stiffen the supports"
+                      : scene.setup.solver.kind == mechanics::SolverKind::Auto
+                          ? "use smaller cells, less contrast between the moduli or a smaller Poisson's ratio"
+                          : "raise \"iterations\" or use solver \"auto\"")
                   << std::endl;
         return NotConverged;
       }

@@ -253,8 +253,13 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     });
   }
 
+  if (r.atlas)
+    for (const std::string& w : r.atlas->solver.diagnostics.texts(Severity::Warning))
+      r.warnings.push_back("atlas: " + w);
+
   if (!options.discretisation)
-    steps.leaveOut("discretisation-error", "a study that measures errors itself does without the estimate");
+    for (const char* step : {"discretisation-error", "linear-gap"})
+      steps.leaveOut(step, "a study that measures errors itself does without the estimate");
   if (r.primary.solver.converged())
     steps.run("discretisation-error", [&](const Progress& p) {
       std::optional<retraction::SecondAnswer> second;
@@ -277,7 +282,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     if (scene.compare) {
       linear.atlas = detail::sameStiffness(r.model, atlasModel)
                          ? linear.primary
-                                                  : retraction::simulate(atlasModel, inLinearTheory, scene.outputs.probes_mm, p.part(0.5, 1.0));
+                         : retraction::simulate(atlasModel, inLinearTheory, scene.outputs.probes_mm, p.part(0.5, 1.0));
       linear.difference = comparison::compare(r.model, linear.primary, *linear.atlas, {});
     }
     r.linear = std::move(linear);
@@ -287,6 +292,13 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   steps.run("vessels", [&](const Progress& p) { vessels = anatomy::findVessels(*inputs.mri, *inputs.liver, p); });
   r.landmarks_mm = vessels.centreline_lps_mm;
   tellOfSlips(r);
+  steps.run("linear-gap", [&](const Progress& p) {
+    retraction::judgeByGap(r.model, setup, r.landmarks_mm, r.primary, p.part(0.0, r.atlas ? 0.5 : 1.0));
+    if (r.atlas && detail::sameStiffness(r.model, atlasModel))
+      r.atlas = r.primary;
+    else if (r.atlas)
+      retraction::judgeByGap(atlasModel, setup, r.landmarks_mm, *r.atlas, p.part(0.5, 1.0));
+  });
   const bool comparable = r.atlas && r.primary.solver.converged() && r.atlas->solver.converged();
   if (r.atlas && !comparable) {
     withhold(r);

@@ -67,6 +67,11 @@ enum class ContactKind { Rigid, Patch };
 /// quarter turn across the hoist, as the blade of a Nathanson retractor.
 enum class BarShape { Straight, Hook };
 struct Retractor {
+  struct Range {
+    double least, most;
+  };
+  /// What is accepted: an instrument, and not a wire or a wall.
+  static constexpr Range diameters_mm{1.0, 100.0}, lengths_mm{1.0, 300.0}, spreads_mm{0.0, 100.0}, forces_N{0.0, 500.0};
   double diameter_mm = 10.0;
   double length_mm = 80.0;
   double spread_mm = 10.0;  ///< tissue wraps round the bar: standard deviation of the pressure beyond it; 0 = bare bar

@@ -81,6 +81,25 @@ mechanics::NodalField nodalForces(const Body& body, const std::vector<FaceTracti
   return mechanics::tractionForce(body.mesh(), faces, traction_Pa);
 }
 
+/// Refuses a bar that no instrument is, and a force that pushes it the other way.
+void requireSensible(const Retractor& bar) {
+  const auto within = [](const char* key, double value, const Retractor::Range& range, const char* unit) {
+    if (value >= range.least && value <= range.most) return;
+    std::ostringstream text;
+    text << "the retractor's \"" << key << "\" is " << value << " " << unit << "; it must lie between " << range.least
+         << " and " << range.most << " " << unit;
+    throw BadInput(text.str());
+  };
+  within("diameter_mm", bar.diameter_mm, Retractor::diameters_mm, "mm");
+  within("length_mm", bar.length_mm, Retractor::lengths_mm, "mm");
+  within("spread_mm", bar.spread_mm, Retractor::spreads_mm, "mm");
+  if (bar.force_N && *bar.force_N < 0.0)
+    throw BadInput(
+        "the retractor's \"force\" is negative; give its size, and turn \"direction\" where the bar pulls the "
+        "other way");
+  if (bar.force_N) within("force", *bar.force_N, Retractor::forces_N, "N");
+}
+
 /// Surface loads become tractions on faces; body forces have none.
 struct LoadBuilder {
   const Body& body;
@@ -102,6 +121,7 @@ struct LoadBuilder {
     return out;
   }
   std::vector<FaceTraction> operator()(const Retractor& load) const {
+    requireSensible(load);
     if (rigid) return {};  // the bar is no load: the contact solver moves it
     const Eigen::Vector3d at_mm =
         load.at_mm ? *load.at_mm : defaultHoistPoint(body, model, load);
@@ -143,13 +163,17 @@ MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& se
   scene.problem.body = body.voxels();
   std::map<int, mechanics::Fixation> fixations;
   for (const SupportSpec& s : setup.supports) {
+    std::vector<mechanics::Foundation> own;
     if (s.kind == SupportSpec::Kind::Fixed)
       addFixed(body, s, fixations);
     else if (s.stiffness_kPa_per_mm > 0)
-      for (const mechanics::Spring& spring : mechanics::faceSprings(
-               body.mesh(), meshFaces(body, s.region), mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm,
+      for (const mechanics::Foundation& f : mechanics::foundations(
+               meshFaces(body, s.region), mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm,
                s.normalOnly ? mechanics::SpringDirection::Normal : mechanics::SpringDirection::Every))
-        scene.problem.supports.springs.push_back(spring);
+        own.push_back(f);
+    for (const mechanics::Spring& spring : mechanics::faceSprings(body.mesh(), own))
+      scene.problem.supports.springs.push_back(spring);
+    scene.foundations.insert(scene.foundations.end(), own.begin(), own.end());
   }
   for (const auto& [node, f] : fixations) scene.problem.supports.fixations.push_back(f);
   if (!setup.analysis.dynamic) requireSupported(body, scene.problem.supports);

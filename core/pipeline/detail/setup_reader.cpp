@@ -1,6 +1,7 @@
 #include "pipeline/detail/setup_reader.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "base/error.h"
 
@@ -10,6 +11,22 @@ double positive(JsonObject& o, const std::string& key, double value) {
   if (!(value > 0.0)) o.fail(key, "is " + std::to_string(value) + "; it must be greater than 0");
   return value;
 }
+
+namespace {
+
+/// The value, if it lies in the range.
+double within(JsonObject& o, const std::string& key, double value, const retraction::Retractor::Range& range,
+              const char* unit) {
+  if (!(value >= range.least && value <= range.most)) {
+    std::ostringstream text;
+    text << "is " << value << " " << unit << "; it must lie between " << range.least << " and " << range.most << " "
+         << unit;
+    o.fail(key, text.str());
+  }
+  return value;
+}
+
+}  // namespace
 
 std::filesystem::path existing(JsonObject& o, const std::string& key, const std::filesystem::path& folder) {
   const std::filesystem::path p = o.text(key);
@@ -69,7 +86,13 @@ Eigen::Vector3d direction(JsonObject& o, const std::string& key, const Eigen::Ve
 /// Force of a retractor, N; nothing for the liver's weight.
 std::optional<double> forceOf(JsonObject& o) {
   if (!o.has("force")) return {};
-  if (!o.raw("force").is_string()) return positive(o, "force", o.number("force"));
+  if (!o.raw("force").is_string()) {
+    const double force_N = o.number("force");
+    if (force_N < 0.0)
+      o.fail("force", "must not be negative: give its size, and turn \"direction\" where the bar pulls the other way");
+    within(o, "force", force_N, retraction::Retractor::forces_N, "N");
+    return force_N;
+  }
   o.word("force", {"liver-weight"});
   return {};
 }
@@ -114,10 +137,11 @@ retraction::LoadSpec readLoad(JsonObject o, const std::filesystem::path& folder)
     load = retraction::Pressure{readRegion(o.object("region"), folder), o.number("kPa")};
   } else {
     retraction::Retractor r;
-    r.diameter_mm = positive(o, "diameter_mm", o.number("diameter_mm", defaults::retractorDiameter.mm()));
-    r.length_mm = positive(o, "length_mm", o.number("length_mm", 80.0));
-    r.spread_mm = o.number("spread_mm", r.spread_mm);
-    if (r.spread_mm < 0) o.fail("spread_mm", "must not be negative");
+    using retraction::Retractor;
+    r.diameter_mm = within(o, "diameter_mm", o.number("diameter_mm", defaults::retractorDiameter.mm()),
+                           Retractor::diameters_mm, "mm");
+    r.length_mm = within(o, "length_mm", o.number("length_mm", 80.0), Retractor::lengths_mm, "mm");
+    r.spread_mm = within(o, "spread_mm", o.number("spread_mm", r.spread_mm), Retractor::spreads_mm, "mm");
     if (o.has("at")) {
       if (o.raw("at").is_string())
         o.word("at", {"inferior-right-lobe"});
