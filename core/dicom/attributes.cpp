@@ -94,6 +94,22 @@ std::string shownText(DcmItem& item, const DcmTagKey& tag) {
   return cleaned(text(item, tag));
 }
 
+std::string privateText(DcmItem& item, std::uint16_t group, std::uint8_t element, const char* creator) {
+  const auto attribute = [group, element](unsigned block) {
+    return DcmTagKey(group, static_cast<Uint16>((block << 8U) | element));
+  };
+  bool firstIsAnothers = false;
+  for (unsigned block = 0x10; block <= 0xFF; ++block) {
+    const std::string owner = text(item, DcmTagKey(group, static_cast<Uint16>(block)));
+    if (owner == creator) {
+      if (const std::string value = text(item, attribute(block)); !value.empty()) return value;
+    } else if (block == 0x10) {
+      firstIsAnothers = !owner.empty();
+    }
+  }
+  return firstIsAnothers ? std::string() : text(item, attribute(0x10));
+}
+
 std::string unifiedText(DcmItem& item, const DcmTagKey& tag) {
   const std::string raw = text(item, tag);
   const bool plain = std::all_of(raw.begin(), raw.end(), [](char c) { return c >= 0x20 && c < 0x7F; });
