@@ -51,6 +51,7 @@ const elastography::StiffnessMap& ExportCase::stiffness() {
   if (scene_.geometry.mre.empty()) throw BadInput("this format needs an elastogram, and the scene has none");
   const GeometrySpec& g = scene_.geometry;
   MapMeaning meaning{g.mreQuantity, g.mreUnit, g.roles};
+  meaning.confidenceScale = g.mreConfidenceScale;
   if (g.kind == GeometrySpec::Kind::Patient) meaning.outlined = roi().names;
   LoadedStiffness loaded = loadStiffness(g.mre, meaning, progress_);
   for (const std::string& w : loaded.warnings) warn(w);

@@ -62,6 +62,7 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
     progress.report(0.5, "reading the elastogram");
     MapMeaning meaning{g.mreQuantity, g.mreUnit, g.roles};
     meaning.outlined = roi.names;
+    meaning.confidenceScale = g.mreConfidenceScale;
     mre = loadStiffness(g.mre, meaning, progress.part(0.5, 0.9));
     if (g.rigidRegistration) in.registration = fitToMri(*mre, g.mre, {}, mri.volume, progress.part(0.9, 1.0));
     take(in, *mre);
