@@ -130,7 +130,7 @@ class Evidence {
         ++current;
         seen.clear();
       }
-      seen.emplace(s.role, stem(s));
+      if (!s.masked) seen.emplace(s.role, stem(s));
       run_[static_cast<std::size_t>(i)] = current;
     }
   }
@@ -226,6 +226,18 @@ std::int64_t numberOf(const Evidence& e, int i) {
   return e.series(i).number;
 }
 
+/// Whether two stiffness series are maps of one acquisition.
+bool sameAcquisition(const Evidence& e, int a, int b) {
+  if (!e.together(a, b)) return false;
+  bool same = e.series(a).masked != e.series(b).masked;
+  for (const Tie tie : ties) {
+    if (!strong(tie) && tie != Tie::Number && tie != Tie::Frame) continue;
+    if (e.judge(tie, a, b) == Verdict::Other) return false;
+    same = same || (strong(tie) && e.judge(tie, a, b) == Verdict::Same);
+  }
+  return same;
+}
+
 class Partners {
  public:
   Partners(const Evidence& e, int stiffness) : e_(e), stiffness_(stiffness) {
@@ -302,7 +314,9 @@ class Partners {
       arguments.insert(arguments.end(), more.begin(), more.end());
       return arguments;
     };
-    const bool several = anchors_.size() > 1;
+    const bool several = std::any_of(anchors_.begin(), anchors_.end(), [&](int a) {
+      return a != stiffness_ && !sameAcquisition(e_, a, stiffness_);
+    });
     if (several && chosen.last == Tie::Order)
       said.add(DiagnosticCode::PartnerByOrder, about({}));
     else if (several)
@@ -327,18 +341,6 @@ class Partners {
   int stiffness_;
   std::vector<int> anchors_;
 };
-
-/// Whether two stiffness series are maps of one acquisition.
-bool sameAcquisition(const Evidence& e, int a, int b) {
-  if (!e.together(a, b)) return false;
-  bool same = e.series(a).masked != e.series(b).masked;
-  for (const Tie tie : ties) {
-    if (!strong(tie) && tie != Tie::Number && tie != Tie::Frame) continue;
-    if (e.judge(tie, a, b) == Verdict::Other) return false;
-    same = same || (strong(tie) && e.judge(tie, a, b) == Verdict::Same);
-  }
-  return same;
-}
 
 /// Every volume of that wave's series, of the same acquisition.
 std::vector<int> volumesOf(const Evidence& e, int wave) {

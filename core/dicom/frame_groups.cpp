@@ -90,14 +90,14 @@ void readGeometry(const FrameView& view, Frame& frame) {
   frame.statedSpacing_mm = lenient(DCM_SpacingBetweenSlices);
 }
 
-void readKinds(const FrameView& view, DcmItem& data, Frame& frame) {
+void readKinds(const FrameView& view, DcmItem& data, const std::string& privateType, Frame& frame) {
   const auto add = [&frame](const char* what, const std::string& value) {
     if (!value.empty()) frame.kinds.emplace_back(what, value);
   };
   DcmItem& type = view.group(DCM_MRImageFrameTypeSequence);
   add("image type", text(type, &type == &data ? DCM_ImageType : DCM_FrameType));
   add("complex component", text(type, DCM_ComplexImageComponent));
-  add("private image type", privateText(data, 0x0043, 0x2F, "GEMS_PARM_01"));
+  add("private image type", privateType);
   if (frame.quantity) add("quantity", inWords(*frame.quantity));
   add("echo number", text(data, DCM_EchoNumbers));
   DcmItem& echo = view.group(DCM_MREchoSequence);
@@ -122,6 +122,7 @@ void readFrames(DcmDataset& data, std::uint64_t frames, ImageHeader& header) {
                    " frames and no functional groups, so that the place of a frame is unknown");
   if (groups > 0 && groups != frames)
     throw BadInput("has " + std::to_string(frames) + " frames, but functional groups for " + std::to_string(groups));
+  const std::string privateType = privateText(data, 0x0043, 0x2F, "GEMS_PARM_01");
   header.frames.reserve(static_cast<std::size_t>(frames));
   DcmSequenceOfItems* perFrame = nullptr;
   data.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, perFrame);
@@ -138,7 +139,7 @@ void readFrames(DcmDataset& data, std::uint64_t frames, ImageHeader& header) {
       if (frames == 1) throw;
       throw BadInput("frame " + std::to_string(n + 1) + ": " + e.what());
     }
-    readKinds(view, data, frame);
+    readKinds(view, data, privateType, frame);
     header.frames.push_back(std::move(frame));
   }
 }

@@ -58,9 +58,12 @@ const dicom::Series& best(const dicom::ScanResult& scan, SeriesRole role) {
   return dicom::findRole(scan, role);
 }
 
-bool drawnOn(const dicom::Series& s) {
-  return !s.error && !s.colour &&
-         (s.role == SeriesRole::Anatomical || s.role == SeriesRole::Magnitude || s.role == SeriesRole::Other);
+/// Whether a series can stand for the MRI: an anatomical one, or what there is where there is none (magnitude images of
+/// the elastography show no vessels).
+bool servesAsMri(const dicom::Series& s, bool anatomicalThere) {
+  if (s.error || s.colour) return false;
+  return s.role == SeriesRole::Anatomical ||
+         (!anatomicalThere && (s.role == SeriesRole::Magnitude || s.role == SeriesRole::Other));
 }
 
 /// The acquisition that a series is a product of; null where it is of none.
@@ -99,7 +102,7 @@ const dicom::Series& seriesFor(const dicom::ScanResult& scan, SeriesRole role, c
     const bool others = std::any_of(scan.series.begin(), scan.series.end(), [&](const auto& s) {
       return &s != &outlined && s.role == role && !s.error;
     });
-    if (drawnOn(outlined)) {
+    if (servesAsMri(outlined, others)) {
       if (others)
         said.add(DiagnosticCode::SeriesByOutline, {{"series", numberOf(scan, named)}, {"what", what}});
       return outlined;
