@@ -19,13 +19,20 @@ struct StructureContour {
 struct Structure {
   int number = 0;
   std::string name;
+  std::string frameOfReferenceUid;  ///< its own; empty where it names none
   std::vector<StructureContour> contours;
 };
 
+/// An image series that a structure set says it was drawn on.
+struct ReferencedSeries {
+  std::string frameOfReferenceUid, seriesUid;
+};
+
 struct StructureSet {
-  Origin origin;  ///< study: the one that it was drawn on
-  std::string frameOfReferenceUid;
-  std::string referencedSeriesUid;
+  Origin origin;                            ///< study: the one that it was drawn on
+  std::string frameOfReferenceUid;          ///< the first one named
+  std::string referencedSeriesUid;          ///< the first one named
+  std::vector<ReferencedSeries> references;  ///< all, in order
   std::vector<Structure> structures;
   std::vector<std::string> warnings;
 };

@@ -133,7 +133,7 @@ ScanResult scanFiles(const std::vector<fs::path>& files, ScanResult result, cons
   for (auto& [uid, headers] : bySeries) {
     dropCopies(headers, result.skipped);
     std::vector<Series> volumes = buildVolumes(headers);
-    setRoles(volumes, headers.front());
+    setRoles(volumes);
     const auto incomplete = refused.find(uid);
     for (Series& s : volumes) {
       if (incomplete != refused.end() && !s.error)

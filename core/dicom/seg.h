@@ -19,6 +19,13 @@ struct Segment {
   image::Mask mask;          ///< on the grid shared by all segments of the object
 };
 
+/// Where a frame lies and which image it says that it was drawn on.
+struct SegmentFrame {
+  int segment = 0;
+  Eigen::Vector3d position_lps_mm = Eigen::Vector3d::Zero();  ///< of its first pixel
+  std::string sourceSopInstanceUid;
+};
+
 /// A Segmentation as read. Segments may overlap: each has a mask of its own.
 struct SegmentationSet {
   Origin origin;
@@ -26,6 +33,7 @@ struct SegmentationSet {
   std::string referencedSeriesUid;                     ///< empty where the object names none
   std::vector<std::string> referencedSopInstanceUids;  ///< of the images that the frames were drawn on
   std::vector<Segment> segments;                       ///< ascending by number
+  std::vector<SegmentFrame> frames;                    ///< those that name a source image
   std::vector<std::string> warnings;
 };
 

@@ -80,12 +80,12 @@ void readFrames(DcmDataset& data, std::size_t count, SegHeader& h) {
     DcmItem* identification = groupOf(frame, shared, DCM_SegmentIdentificationSequence);
     if (identification == nullptr) throw BadInput("does not say which segment a frame belongs to" + where);
     f.segment = wholeNumber(*identification, DCM_ReferencedSegmentNumber, 1, 65535);
-    h.frames.push_back(f);
     if (DcmItem* derivation = groupOf(frame, shared, DCM_DerivationImageSequence))
       if (DcmItem* source = itemOf(*derivation, DCM_SourceImageSequence))
-        if (const std::string uid = shownText(*source, DCM_ReferencedSOPInstanceUID);
-            !uid.empty() && images.insert(uid).second)
-          h.about.referencedSopInstanceUids.push_back(uid);
+        f.sourceSopInstanceUid = shownText(*source, DCM_ReferencedSOPInstanceUID);
+    if (!f.sourceSopInstanceUid.empty() && images.insert(f.sourceSopInstanceUid).second)
+      h.about.referencedSopInstanceUids.push_back(f.sourceSopInstanceUid);
+    h.frames.push_back(std::move(f));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "dicom/series_facts.h"
 #include "dicom/stored_frames.h"
 
 namespace glisson::dicom {
@@ -155,7 +156,7 @@ void split(Part part, std::vector<Part>& out) {
     return;
   }
   static constexpr const char* attributes[] = {
-      "image type",     "complex component", "private image type", "echo number",  "echo time",
+      "image type",     "complex component", "private image type", "quantity",     "echo number",       "echo time",
       "inversion time", "diffusion b-value", "temporal position",  "trigger time", "acquisition number"};
   for (const char* attribute : attributes) {
     const std::string name = attribute;
@@ -286,7 +287,6 @@ Series describe(const ImageHeader& h) {
   s.colour = h.colour();
   s.studyDate = h.studyDate;
   s.grid.size = {h.sliceColumns(), h.sliceRows(), 1};
-  if (!h.unit.empty()) s.unit = h.unit;
   if (h.frameOfReferenceUid.empty())
     s.warnings.push_back("has no frame of reference: how it lies to others is unknown");
   return s;
@@ -319,6 +319,9 @@ Series volumeOf(Planes planes, const Eigen::Vector3d& normal) {
   const Frame& first = *planes.front().frame;
   Series s = describe(h);
   addFiles(planes, s);
+  std::vector<SliceFacts> facts;
+  for (const Plane& p : planes) facts.push_back({p.header, p.frame});
+  takeFacts(facts, s);
   s.grid.size.z() = static_cast<int>(planes.size());
   s.grid.spacing_mm = {first.columnSpacing_mm, first.rowSpacing_mm, 1.0};
   s.grid.origin_lps_mm = first.position_lps_mm;
@@ -353,6 +356,7 @@ std::vector<Series> buildVolumes(const std::vector<ImageHeader>& headers) {
   if (const auto why = mixture(planes)) {
     Series s = describe(*planes.front().header);
     addFiles(planes, s);
+    takeFacts({{planes.front().header, planes.front().frame}}, s);
     s.grid.size.z() = static_cast<int>(planes.size());
     s.error = *why;
     return {s};
@@ -374,8 +378,10 @@ std::vector<Series> buildVolumes(const std::vector<ImageHeader>& headers) {
     if (step.vibration_Hz > 0.0) s.vibration_Hz = step.vibration_Hz;
     if (parts.size() > 1) {
       if (n > 0) s.uid += "#" + std::to_string(n + 1);
-      s.warnings.push_back("volume " + std::to_string(n + 1) + " of " + std::to_string(parts.size()) +
-                           " in one series, told apart by " + parts[n].told);
+      tell(s, DiagnosticCode::VolumeOfSeries,
+           {{"volume", static_cast<std::int64_t>(n + 1)},
+            {"volumes", static_cast<std::int64_t>(parts.size())},
+            {"told", parts[n].told}});
     }
     out.push_back(std::move(s));
   }

@@ -65,18 +65,22 @@ ReadersOfCase compareCase(const ReaderRequest& request, const std::string& name,
   for (const auto& reader : request.readers)
     rois.push_back(loadRoi(ofCase(reader, name, many), request.name, request.label, progress));
   std::optional<LoadedStiffness> mre;
-  if (!request.mre.empty()) mre = loadStiffness(ofCase(request.mre, name, many), request.meaning, progress);
+  MapMeaning meaning = request.meaning;
+  meaning.outlined = rois.front().names;
+  if (!request.mre.empty()) mre = loadStiffness(ofCase(request.mre, name, many), meaning, progress);
   std::optional<image::Grid> grid, mriGrid;
   std::optional<AnatomicalImage> mri;
-  if (!request.mri.empty()) mri = loadImage(ofCase(request.mri, name, many), progress);
+  if (!request.mri.empty()) mri = loadImage(ofCase(request.mri, name, many), progress, {}, rois.front().names);
   if (mri) mriGrid = mri->volume.grid;
   const auto tell = [&](const std::vector<std::string>& said) {
     for (const std::string& warning : said) warnings.push_back(name + ": " + warning);
   };
   tell(checkReaders(rois, request.overrideChecks));
   if (mri && mre) tell(checkTogether(*mri, *mre, request.overrideChecks));
-  for (const LoadedRoi& roi : rois)
+  for (const LoadedRoi& roi : rois) {
     tell(checkRoi(roi, mri ? &*mri : nullptr, mre ? &*mre : nullptr, request.overrideChecks));
+    tell(doubtsAboutOutline(roi, mri ? &*mri : nullptr, mre ? &*mre : nullptr).texts());
+  }
   for (const LoadedRoi& roi : rois)
     if (roi.mask && !grid) grid = roi.mask->grid;
   if (!grid) grid = mriGrid;

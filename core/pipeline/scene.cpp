@@ -71,6 +71,10 @@ GeometrySpec readGeometry(JsonObject o, const std::filesystem::path& folder) {
       g.mreQuantity = o.word("mre_quantity", {"shear", "youngs"}) == "youngs" ? StiffnessQuantity::Youngs
                                                                               : StiffnessQuantity::Shear;
     if (o.has("mre_unit")) g.mreUnit = o.text("mre_unit");
+    if (o.has("mre_confidence_scale")) {
+      g.mreConfidenceScale = o.number("mre_confidence_scale");
+      if (!(*g.mreConfidenceScale > 0.0)) o.fail("mre_confidence_scale", "must be a positive number");
+    }
     g.label = o.integer("label", 0);
   }
   o.finish();

@@ -43,6 +43,7 @@ Json toJson(const GeometrySpec& g, const std::filesystem::path& folder) {
       if (g.overrideChecks) j["override"] = true;
       if (g.mreQuantity) j["mre_quantity"] = *g.mreQuantity == StiffnessQuantity::Youngs ? "youngs" : "shear";
       if (g.mreUnit) j["mre_unit"] = *g.mreUnit;
+      if (g.mreConfidenceScale) j["mre_confidence_scale"] = *g.mreConfidenceScale;
       if (g.label != 0) j["label"] = g.label;
       break;
   }

@@ -49,10 +49,15 @@ void exchange(Wire& w, StructureSet& set) {
   exchange(w, set.origin);
   w(set.frameOfReferenceUid);
   w(set.referencedSeriesUid);
+  exchangeList(w, set.references, any, [&](ReferencedSeries& r) {
+    w(r.frameOfReferenceUid);
+    w(r.seriesUid);
+  });
   w(set.warnings);
   exchangeList(w, set.structures, any, [&](Structure& s) {
     w(s.number);
     w(s.name);
+    w(s.frameOfReferenceUid);
     exchangeList(w, s.contours, any, [&](StructureContour& c) { exchange(w, c); });
   });
 }
@@ -83,6 +88,7 @@ void exchange(Wire& w, SegHeader& h) {
   exchangeList(w, h.frames, maxSegFrames, [&](SegFrame& f) {
     w(f.position_lps_mm);
     w(f.segment);
+    w(f.sourceSopInstanceUid);
   });
 }
 
@@ -130,9 +136,14 @@ StructureSet structuresFrom(const std::string& message) {
   check(set.origin);
   clean(set.frameOfReferenceUid);
   clean(set.referencedSeriesUid);
+  for (ReferencedSeries& r : set.references) {
+    clean(r.frameOfReferenceUid);
+    clean(r.seriesUid);
+  }
   cleanAll(set.warnings);
   for (Structure& s : set.structures) {
     clean(s.name);
+    clean(s.frameOfReferenceUid);
     for (StructureContour& c : s.contours) {
       clean(c.referencedSopInstanceUid);
       if (c.points_lps_mm.cols() < 3 || c.points_lps_mm.cwiseAbs().maxCoeff() > farthest_mm) WireReader::fail();
@@ -158,8 +169,10 @@ SegHeader segHeaderFrom(const std::string& message) {
   sound = sound && isUnit(h.row) && isUnit(h.column) && std::abs(h.row.dot(h.column)) < 1e-6;
   sound = sound && h.rowSpacing_mm > 0.0 && h.columnSpacing_mm > 0.0 && !h.frames.empty();
   if (!sound) WireReader::fail();
-  for (const SegFrame& f : h.frames)
+  for (SegFrame& f : h.frames) {
+    clean(f.sourceSopInstanceUid);
     if (f.position_lps_mm.cwiseAbs().maxCoeff() > farthest_mm) WireReader::fail();
+  }
   return h;
 }
 

@@ -20,6 +20,7 @@ inline constexpr std::size_t maxSegments = 4096;
 struct SegFrame {
   Eigen::Vector3d position_lps_mm = Eigen::Vector3d::Zero();
   int segment = 0;
+  std::string sourceSopInstanceUid;  ///< empty where it names none
 };
 
 /// What the header of a Segmentation says; its frames hold one byte a pixel once unpacked.
