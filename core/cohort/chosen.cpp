@@ -38,7 +38,7 @@ std::string keyOf(const std::string& scene, const std::string& recordKey) {
 }
 
 double at(const Json& j, const char* key) {
-  return j.contains("difference") && j["difference"].contains(key) && j["difference"][key].is_number()
+  return j.contains("difference") && j["difference"].is_object() && j["difference"].contains(key) && j["difference"][key].is_number()
              ? j["difference"][key].get<double>()
              : none;
 }

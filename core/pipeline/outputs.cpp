@@ -64,9 +64,10 @@ render::RetractionScene retractionScene(const Scene& scene, const Inputs& inputs
   p.liverSurface = anatomy::liverSurface(cells);
   p.vesselSurface = vessels.surface;
   p.retractorPoint_lps_mm = r.primary.retractorPoint_mm;
+  if (r.primary.contact) p.retractorTravel_mm = r.primary.contact->travel_mm;
   for (const retraction::LoadSpec& load : scene.setup.loads)
     if (const auto* bar = std::get_if<retraction::Retractor>(&load)) {
-      p.retractorAxis = bar->patchAxis();
+      p.retractorAxis = r.placed ? *r.placed->bar.axis : bar->patchAxis();
       p.retractorDirection = bar->direction;
       p.retractorDiameter_mm = bar->diameter_mm;
       p.retractorLength_mm = bar->length_mm;

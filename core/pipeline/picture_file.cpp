@@ -124,6 +124,7 @@ PictureData parsed(const Json& j, Body body) {
   if (!body.used()) throw BadInput("it holds more than it says");
   const Json& r = j.at("retractor");
   if (r.contains("point_lps_mm")) s.retractorPoint_lps_mm = fromJson<Eigen::Vector3d>(r["point_lps_mm"]);
+  if (r.contains("travel_mm")) s.retractorTravel_mm = r["travel_mm"].get<double>();
   s.retractorAxis = fromJson<Eigen::Vector3d>(r.at("axis"));
   s.retractorDirection = fromJson<Eigen::Vector3d>(r.at("direction"));
   s.retractorDiameter_mm = r.at("diameter_mm").get<double>();
@@ -160,6 +161,7 @@ void writePictureFile(const std::filesystem::path& file, const PictureData& data
                     {"diameter_mm", s.retractorDiameter_mm},
                     {"length_mm", s.retractorLength_mm}};
   if (s.retractorPoint_lps_mm) j["retractor"]["point_lps_mm"] = toJson(*s.retractorPoint_lps_mm);
+  if (s.retractorTravel_mm) j["retractor"]["travel_mm"] = *s.retractorTravel_mm;
   j["clinically_significant_mm"] = s.clinicallySignificant_mm;
   j["caption"] = s.caption;
   j["mark"] = s.mark;

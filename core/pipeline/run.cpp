@@ -145,8 +145,10 @@ void requireMemory(const std::vector<PlanStep>& plan) {
 
 std::string whyKinematics(const Scene& scene, const retraction::Result& r) {
   if (scene.setup.kinematics != retraction::Kinematics::Auto) return "the scene asks for them";
-  return r.contact ? "the bar turns and strains the tissue beyond linear theory"
-                   : "no bar moves through the body";
+  if (r.contact) return "contact is followed in large deformation, at no more cost than asking whether linear would do";
+  if (r.kinematics == retraction::Kinematics::Hyperelastic) return "linear theory misses 0.2 mm or more";
+  return r.linearGap && retraction::kinematicsValid(r) ? "linear theory misses less than 0.2 mm"
+                                                       : "the model offers no other";
 }
 
 std::string_view wordOf(bool atlas) {
@@ -159,6 +161,18 @@ void tellOfPlaces(RunResult& r) {
   for (const auto& t : r.placed->tried) best = std::max(best, t.borne);
   r.diagnostics.add(DiagnosticCode::NoPlaceBears,
                     {{"places", static_cast<std::int64_t>(r.placed->tried.size())}, {"percent", 100.0 * best}});
+}
+
+/// What linear theory misses of an answer in large deformation, both with the same bar.
+retraction::LinearGap gapOf(const RunResult& r, const retraction::Result& linear) {
+  const comparison::Difference apart = comparison::compare(r.model, r.primary, linear, r.landmarks_mm);
+  retraction::LinearGap gap;
+  gap.known = true;
+  gap.mean_mm = apart.mean_mm;
+  gap.max_mm = apart.max_mm;
+  gap.at_retractor_mm = apart.at_retractor_mm;
+  if (!apart.vessel_mm.empty()) gap.landmarks_max_mm = apart.vesselMax_mm;
+  return gap;
 }
 
 void tellOfSlips(RunResult& r) {
@@ -232,9 +246,21 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
       if (auto* bar = std::get_if<retraction::Retractor>(&load)) *bar = r.placed->bar;
     if (!r.placed->bears) tellOfPlaces(r);
   });
+  anatomy::VesselModel vessels;
+  steps.run("vessels", [&](const Progress& p) { vessels = anatomy::findVessels(*inputs.mri, *inputs.liver, p); });
+  r.landmarks_mm = vessels.centreline_lps_mm;
   steps.run(needs.timeSteps ? "time-steps" : "solve", [&](const Progress& p) {
     r.primary = retraction::simulate(r.model, setup, scene.outputs.probes_mm, p);
   });
+  if (setup.kinematics == retraction::Kinematics::Auto && !needs.timeSteps && !r.primary.contact) {
+    retraction::judgeByGap(r.model, setup, r.landmarks_mm, r.primary);
+    setup.kinematics = retraction::kinematicsValid(r.primary) ? retraction::Kinematics::Linear
+                                                              : retraction::Kinematics::Hyperelastic;
+    if (setup.kinematics != retraction::Kinematics::Linear && setup.model.kind == retraction::ModelKind::FemHex)
+      r.primary = retraction::simulate(r.model, setup, scene.outputs.probes_mm, progress);
+    else
+      setup.kinematics = retraction::Kinematics::Linear;
+  }
   r.kinematicsWhy = whyKinematics(scene, r.primary);
   r.warnings.insert(r.warnings.end(), r.primary.notes.begin(), r.primary.notes.end());
   if (scene.setup.model.kind == retraction::ModelKind::Meshfree)
@@ -285,12 +311,10 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
                          : retraction::simulate(atlasModel, inLinearTheory, scene.outputs.probes_mm, p.part(0.5, 1.0));
       linear.difference = comparison::compare(r.model, linear.primary, *linear.atlas, {});
     }
+    if (r.primary.contact && linear.primary.solver.converged()) r.primary.linearGap = gapOf(r, linear.primary);
     r.linear = std::move(linear);
   });
 
-  anatomy::VesselModel vessels;
-  steps.run("vessels", [&](const Progress& p) { vessels = anatomy::findVessels(*inputs.mri, *inputs.liver, p); });
-  r.landmarks_mm = vessels.centreline_lps_mm;
   tellOfSlips(r);
   steps.run("linear-gap", [&](const Progress& p) {
     retraction::judgeByGap(r.model, setup, r.landmarks_mm, r.primary, p.part(0.0, r.atlas ? 0.5 : 1.0));

@@ -54,7 +54,7 @@ Eigen::RowVectorXd toolWeights(const MechanicsScene& scene, const Setup& setup, 
 LiveRetraction::LiveRetraction(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& points_mm,
                                bool everyNode, const Progress& progress) {
   const Body body(model);
-  Setup still = setup;
+  Setup still = withPatch(setup);
   still.analysis.dynamic = false;
   const MechanicsScene scene = toMechanics(body, model, still);
   const Eigen::Index nodes = body.mesh().nodeCount();

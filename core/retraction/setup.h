@@ -79,7 +79,8 @@ struct Retractor {
   std::optional<double> force_N;         ///< empty: the liver's weight
   Eigen::Vector3d direction{0, -1, 0};  ///< of the hoist, LPS; "transverse" = towards anterior, in the transverse plane
   std::optional<Eigen::Vector3d> axis;  ///< of the bar, LPS; empty: from geometry (a rigid bar), x (a patch)
-  std::optional<ContactKind> contact;   ///< empty: rigid where model and analysis offer it, else patch
+  /// Empty, as a scene that does not say it has it: rigid where model and analysis offer it, else patch.
+  std::optional<ContactKind> contact = ContactKind::Patch;
   std::optional<double> travel_mm;      ///< the bar's way from its first touch, instead of a force
   BarShape shape = BarShape::Straight;
 
@@ -132,5 +133,9 @@ struct Setup {
   bool condensed = false;  ///< answer through the condensed response of the full model instead of the solve itself
   std::uint64_t seed = 1;
 };
+
+/// The same scene with its retractor as a patch of pressure and linear kinematics for auto: for what asks for loads on
+/// nodes (matrices, condensed responses, other programs). A bar that is given its travel takes the liver's weight.
+Setup withPatch(Setup setup);
 
 }  // namespace glisson::retraction

@@ -141,11 +141,15 @@ Answer solve(const Model& patient, const Body& body, const MechanicsScene& scene
       a.notes.push_back(Diagnostic{DiagnosticCode::CondensedMotionError, {{"error_mm", c.error_mm}}}.text());
     }
   } else if (setup.kinematics != Kinematics::Linear) {
-    a.solution = mechanics::solveLargeDeformation(problem,
-                                                  setup.kinematics == Kinematics::Corotational
-                                                      ? mechanics::LargeDeformationKind::Corotational
-                                                      : mechanics::LargeDeformationKind::Hyperelastic,
-                                                  options, progress);
+    if (setup.kinematics == Kinematics::Corotational) {
+      a.solution =
+          mechanics::solveLargeDeformation(problem, mechanics::LargeDeformationKind::Corotational, options, progress);
+    } else {
+      mechanics::ContactProblem body_;
+      body_.problem = problem;
+      body_.law = setup.law.value_or(mechanics::SolidLaw::Logarithmic);
+      a.solution = mechanics::solveContact(body_, {.tolerance = options.tolerance}, progress).solution;
+    }
     if (setup.kinematics == Kinematics::Hyperelastic)
       a.notes.push_back("hyperelastic kinematics use mean-dilatation hexahedra, whatever element the scene names");
   } else if (setup.analysis.dynamic) {

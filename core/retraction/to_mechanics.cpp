@@ -158,6 +158,17 @@ Eigen::Vector3d defaultHoistPoint(const Body& body, const Model& model, const Re
   return findHoistPoint(body, retractor, anatomy::inferiorRightLobePoint(bodyMask(model)));
 }
 
+Setup withPatch(Setup setup) {
+  for (LoadSpec& load : setup.loads)
+    if (auto* bar = std::get_if<Retractor>(&load)) {
+      bar->contact = ContactKind::Patch;
+      bar->travel_mm.reset();
+      bar->shape = BarShape::Straight;
+    }
+  if (setup.kinematics == Kinematics::Auto) setup.kinematics = Kinematics::Linear;
+  return setup;
+}
+
 MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& setup) {
   MechanicsScene scene;
   scene.problem.body = body.voxels();

@@ -18,6 +18,12 @@
 namespace glisson::study {
 namespace {
 
+/// The scene with its loads on nodes, which every method can carry.
+pipeline::Scene onNodes(pipeline::Scene scene) {
+  scene.setup = retraction::withPatch(std::move(scene.setup));
+  return scene;
+}
+
 using mechanics::HexElement;
 using retraction::ModelKind;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -84,7 +90,7 @@ class Tradeoff {
  public:
   Tradeoff(pipeline::Scene scene, const pipeline::Inputs& inputs, const retraction::Model& own,
            std::vector<Eigen::Vector3d> points, std::vector<Eigen::Vector3d> truth, TradeoffStudy& study)
-      : scene_(std::move(scene)),
+      : scene_(onNodes(std::move(scene))),
         inputs_(inputs),
         own_(own),
         points_(std::move(points)),

@@ -11,6 +11,7 @@ constexpr double forcing = 0.1;  ///< of the inner solve
 constexpr int innerLimit = 200;
 constexpr double armijo = 1e-4;
 constexpr int halvings = 12;
+constexpr double atRounding = 1e-7;  ///< residual that counts as converged where no step helps
 
 double normOf(const std::vector<double>& v) {
   double sum = 0;
@@ -90,6 +91,8 @@ NewtonRun minimise(SolidHierarchy& hierarchy, const ContactEnergy& energy, Conta
       return run;
     if (m.direction(false, run) && m.search(state)) continue;
     if (m.direction(true, run) && m.search(state)) continue;
+    // No step lowers the potential any more: at the rounding of its sums.
+    run.converged = run.residual <= std::max(goal.tolerance, atRounding);
     return run;
   }
 }

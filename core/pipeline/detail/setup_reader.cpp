@@ -160,6 +160,7 @@ retraction::LoadSpec readLoad(JsonObject o, const std::filesystem::path& folder)
     } else {
       r.force_N = forceOf(o);
     }
+    r.contact.reset();
     if (o.has("contact"))
       r.contact = o.word("contact", {"rigid", "patch"}) == "rigid" ? retraction::ContactKind::Rigid
                                                                    : retraction::ContactKind::Patch;

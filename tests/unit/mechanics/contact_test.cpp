@@ -1,0 +1,276 @@
+// A rigid, frictionless bar against bodies in large deformation.
+#include "mechanics/contact/contact_solve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "base/parallel.h"
+#include "mechanics/contact/contact_setup.h"
+#include "mechanics/hyperelastic.h"
+#include "mechanics/measures.h"
+
+namespace glisson::mechanics {
+namespace {
+
+VoxelBody box(const Eigen::Vector3i& cells, const Eigen::Vector3d& h_m, double E_Pa, double poisson) {
+  VoxelBody b;
+  b.cells = cells;
+  b.h_m = h_m;
+  b.E_Pa.assign(static_cast<std::size_t>(cells.prod()), E_Pa);
+  b.poisson = poisson;
+  return b;
+}
+
+/// Samples of the face y+ of a box, `perCell` to a cell's edge.
+std::vector<SurfaceSample> topOf(const VoxelBody& b, int perCell) {
+  const Eigen::Vector3d size = b.cells.cast<double>().cwiseProduct(b.h_m);
+  const int nx = perCell * b.cells.x(), nz = perCell * b.cells.z();
+  std::vector<SurfaceSample> samples;
+  for (int k = 0; k < nz; ++k)
+    for (int i = 0; i < nx; ++i)
+      samples.push_back({{(i + 0.5) * size.x() / nx, size.y(), (k + 0.5) * size.z() / nz},
+                         Eigen::Vector3d::UnitY(),
+                         size.x() / nx * size.z() / nz});
+  return samples;
+}
+
+ContactProblem onClampedBlock(const VoxelBody& body, int perCell) {
+  ContactProblem p;
+  p.problem.body = body;
+  const VoxelMesh mesh(body);
+  p.problem.f_N = NodalField::Zero(3, mesh.nodeCount());
+  for (int n = 0; n < mesh.nodeCount(); ++n)
+    if (mesh.latticeOf(n).y() == 0) p.problem.supports.fixations.push_back({n, {true, true, true}, {0, 0, 0}});
+  p.surface = topOf(body, perCell);
+  return p;
+}
+
+/// The block of the published comparison with CalculiX: 160 × 60 × 100 mm, E 6.09 kPa, ν .45, a bar of 10 × 80 mm.
+ContactProblem comparedBlock(double h_mm) {
+  const Eigen::Vector3i cells = (Eigen::Vector3d(160, 60, 100) / h_mm).array().round().cast<int>();
+  ContactProblem p = onClampedBlock(box(cells, Eigen::Vector3d::Constant(1e-3 * h_mm), 6090, 0.45), 2);
+  p.bar = RigidBar{{{0.04, 0.09, 0.05}, {0.12, 0.09, 0.05}}, 0.005, {0, -1, 0}};
+  return p;
+}
+
+double depth_mm(const ContactProblem& p, const ContactSolution& s, const Eigen::Vector3d& at_mm) {
+  return -1e3 * displacementAt(VoxelMesh(p.problem.body), s.solution.u_m, 1e-3 * at_mm)->y();
+}
+
+TEST(CellLaws, ForceIsTheDerivativeOfTheEnergyAndTangentThatOfTheForce) {
+  for (const SolidLaw law : {SolidLaw::Polynomial, SolidLaw::Logarithmic, SolidLaw::Linear}) {
+    ContactProblem p = onClampedBlock(box({5, 4, 6}, {2e-3, 3e-3, 1.5e-3}, 6090, 0.45), 1);
+    p.law = law;
+    SolidLevel level = finestLevel(p);
+    const std::size_t n = 3 * level.nodes();
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> range(-4e-4, 4e-4);
+    std::vector<double> u(n), v(n), gradient(n + 1), above(n + 1), below(n + 1);
+    for (std::size_t i = 0; i < n; ++i) {
+      u[i] = level.active[i] > 0 ? range(random) : 0;
+      v[i] = level.active[i] > 0 ? range(random) : 0;
+    }
+    const double step = 1e-4;
+    std::vector<double> up = u, down = u;
+    for (std::size_t i = 0; i < n; ++i) {
+      up[i] += step * v[i];
+      down[i] -= step * v[i];
+    }
+    double energy = 0, energyUp = 0, energyDown = 0;
+    ASSERT_TRUE(level.forces(law, u.data(), energy, gradient.data()));
+    ASSERT_TRUE(level.forces(law, up.data(), energyUp, above.data()));
+    ASSERT_TRUE(level.forces(law, down.data(), energyDown, below.data()));
+    double work = 0;
+    for (std::size_t i = 0; i < n; ++i) work += gradient[i] * v[i];
+    EXPECT_NEAR((energyUp - energyDown) / (2 * step), work, 1e-6 * std::abs(work));
+
+    level.linearise(law, u.data(), {}, false, Eigen::Vector3d::Zero());
+    std::vector<float> x(n + 1, 0.0F), y(n + 1);
+    for (std::size_t i = 0; i < n; ++i) x[i] = static_cast<float>(v[i]);
+    level.apply(x.data(), y.data(), false);
+    double wrong = 0, size = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!(level.active[i] > 0)) continue;
+      const double d = (above[i] - below[i]) / (2 * step);
+      wrong += (d - static_cast<double>(y[i])) * (d - static_cast<double>(y[i]));
+      size += d * d;
+    }
+    EXPECT_LT(std::sqrt(wrong / size), 2e-6);
+  }
+}
+
+TEST(CellLaws, UniaxialTractionAgreesWithItsClosedForm) {
+  // One free bar of cubes, pulled at its end: F = diag(a, b, b), S22 = 0 gives b, S11 the traction.
+  for (const SolidLaw law : {SolidLaw::Polynomial, SolidLaw::Logarithmic}) {
+    const double E = 10e3, nu = 0.4, mu = E * lameMu(nu), lambda = E * lameLambda(nu), stretch = 1.5;
+    const auto volume = [&](double J) {  // dU/dJ of the part beside µ/2 (I1 − 3)
+      return law == SolidLaw::Polynomial ? -mu + (lambda + mu) * (J - 1) : (-mu + lambda * std::log(J)) / J;
+    };
+    double low = 0.3, high = 1.5;
+    for (int i = 0; i < 200; ++i) {
+      const double b = 0.5 * (low + high);
+      (mu * b + volume(stretch * b * b) * stretch * b > 0 ? high : low) = b;
+    }
+    const double b = 0.5 * (low + high), traction_Pa = mu * stretch + volume(stretch * b * b) * b * b;
+    ContactProblem p;
+    p.problem.body = box({6, 2, 2}, Eigen::Vector3d::Constant(5e-3), E, nu);
+    p.law = law;
+    const VoxelMesh mesh(p.problem.body);
+    p.problem.f_N = NodalField::Zero(3, mesh.nodeCount());
+    for (int n = 0; n < mesh.nodeCount(); ++n) {
+      const Eigen::Vector3i at = mesh.latticeOf(n);
+      const std::array<bool, 3> held = {at.x() == 0, at.y() == 0, at.z() == 0};
+      if (held[0] || held[1] || held[2]) p.problem.supports.fixations.push_back({n, held, {0, 0, 0}});
+      const double share = (at.y() % 2 == 0 ? 0.5 : 1) * (at.z() % 2 == 0 ? 0.5 : 1);
+      if (at.x() == 6) p.problem.f_N(0, n) = traction_Pa * share * 25e-6;
+    }
+    ContactOptions options;
+    options.tolerance = 1e-9;
+    const ContactSolution s = solveContact(p, options);
+    ASSERT_TRUE(s.solution.report.converged());
+    const double end_m = s.solution.u_m(0, mesh.nodeAt(6, 1, 1));
+    EXPECT_NEAR(end_m, (stretch - 1) * 30e-3, 1e-8);
+  }
+}
+
+TEST(RigidBarContact, AgreesWithCalculixOnABlock) {
+  ContactProblem p = comparedBlock(4);
+  p.force_N = 4.6;
+  const ContactSolution s = solveContact(p);
+  ASSERT_TRUE(s.solution.report.converged());
+  EXPECT_EQ(s.outcome, ContactOutcome::Reached);
+  // CalculiX 2.20, neo-Hookean, rigid cylinder, surface contact: 11.7, 5.27 and 1.78 mm.
+  EXPECT_NEAR(depth_mm(p, s, {80, 60, 50}), 11.7, 0.05 * 11.7);
+  EXPECT_NEAR(depth_mm(p, s, {80, 40, 50}), 5.27, 0.05 * 5.27);
+  EXPECT_NEAR(depth_mm(p, s, {80, 20, 50}), 1.78, 0.06 * 1.78);
+  // What the bar exerts is what the pressures add up to, and what the clamp holds.
+  EXPECT_NEAR(s.force_N.y(), -4.6, 1e-5);
+  EXPECT_NEAR(s.solution.reaction_N.row(1).sum(), 4.6, 1e-4);
+  EXPECT_LT(s.penetrationMax_m, 0.5e-3);
+  EXPECT_FALSE(s.capacityExceeded);
+}
+
+TEST(RigidBarContact, TravelAndForceAreTwoWaysToOneState) {
+  ContactProblem p = comparedBlock(5);
+  p.force_N = 3.0;
+  const ContactSolution byForce = solveContact(p);
+  ASSERT_TRUE(byForce.solution.report.converged());
+  p.force_N.reset();
+  p.travel_m = byForce.travel_m;
+  const ContactSolution byTravel = solveContact(p);
+  ASSERT_TRUE(byTravel.solution.report.converged());
+  EXPECT_NEAR(byTravel.force_N.y(), -3.0, 2e-4);
+  EXPECT_LT((byTravel.solution.u_m - byForce.solution.u_m).cwiseAbs().maxCoeff(), 2e-6);
+}
+
+TEST(RigidBarContact, TheGridsAxesDoNotMatter) {
+  // The same block with its axes turned: x → y → z → x.
+  ContactProblem p = comparedBlock(10);
+  p.force_N = 2.0;
+  const ContactSolution s = solveContact(p);
+  const auto turned = [](const Eigen::Vector3d& v) { return Eigen::Vector3d(v.z(), v.x(), v.y()); };
+  ContactProblem q;
+  q.problem.body = box({10, 16, 6}, Eigen::Vector3d::Constant(0.01), 6090, 0.45);
+  const VoxelMesh mesh(q.problem.body);
+  q.problem.f_N = NodalField::Zero(3, mesh.nodeCount());
+  for (int n = 0; n < mesh.nodeCount(); ++n)
+    if (mesh.latticeOf(n).z() == 0) q.problem.supports.fixations.push_back({n, {true, true, true}, {0, 0, 0}});
+  for (const SurfaceSample& sample : p.surface)
+    q.surface.push_back({turned(sample.p_m), turned(sample.normal), sample.area_m2});
+  q.bar = RigidBar{{turned(p.bar->centreline_m[0]), turned(p.bar->centreline_m[1])}, 0.005, turned(p.bar->hoist)};
+  q.force_N = 2.0;
+  const ContactSolution t = solveContact(q);
+  ASSERT_TRUE(s.solution.report.converged() && t.solution.report.converged());
+  EXPECT_NEAR(t.travel_m, s.travel_m, 1e-7);
+  EXPECT_LT((t.force_N - turned(s.force_N)).norm(), 1e-5);
+}
+
+TEST(RigidBarContact, LineContactFollowsHertz) {
+  // Plane strain: one layer of cells whose nodes stay in their planes; half width a = R/5.
+  const double E = 10e3, nu = 0.3, R = 5e-3, a = 1e-3;
+  const double line_N_m = std::numbers::pi * E * a * a / (4 * R * (1 - nu * nu));
+  const double thick = 0.25e-3;
+  ContactProblem p = onClampedBlock(box({160, 80, 1}, {0.25e-3, 0.25e-3, thick}, E, nu), 2);
+  const VoxelMesh mesh(p.problem.body);
+  p.problem.supports.fixations.clear();
+  for (int n = 0; n < mesh.nodeCount(); ++n) {
+    const bool floor = mesh.latticeOf(n).y() == 0;
+    p.problem.supports.fixations.push_back({n, {floor, floor, true}, {0, 0, 0}});
+  }
+  p.law = SolidLaw::Linear;
+  p.bar = RigidBar{{{0.02, 0.03, -0.02}, {0.02, 0.03, 0.02}}, R, {0, -1, 0}};
+  p.force_N = line_N_m * thick;
+  ContactOptions options;
+  options.zone_m = 0.02e-3;
+  const ContactSolution s = solveContact(p, options);
+  ASSERT_TRUE(s.solution.report.converged());
+  double force = 0, second = 0;
+  for (std::size_t i = 0; i < p.surface.size(); ++i) {
+    const double f = s.pressure_Pa[i] * p.surface[i].area_m2, x = p.surface[i].p_m.x() - 0.02;
+    force += f;
+    second += f * x * x;
+  }
+  // The pressure of an elliptic contact has the second moment a²/4.
+  EXPECT_NEAR(2 * std::sqrt(second / force), a, 0.04 * a);
+  EXPECT_NEAR(s.pressureMax_Pa, 2 * line_N_m / (std::numbers::pi * a), 0.06 * 2 * line_N_m / (std::numbers::pi * a));
+}
+
+TEST(RigidBarContact, ABarThatIsAskedForTooMuchSlipsAndSaysWhatItBore) {
+  // A cantilever that bends under the bar near its end until the bar slides off.
+  ContactProblem p;
+  p.problem.body = box({24, 4, 4}, Eigen::Vector3d::Constant(2.5e-3), 10e3, 0.4);
+  const VoxelMesh mesh(p.problem.body);
+  p.problem.f_N = NodalField::Zero(3, mesh.nodeCount());
+  for (int n = 0; n < mesh.nodeCount(); ++n)
+    if (mesh.latticeOf(n).x() == 0) p.problem.supports.fixations.push_back({n, {true, true, true}, {0, 0, 0}});
+  p.surface = topOf(p.problem.body, 2);
+  for (int side = 0; side < 4; ++side)  // the end face as well: what the bar slides over
+    for (int k = 0; k < 8; ++k)
+      for (int j = 0; j < 8; ++j)
+        if (side == 0)
+          p.surface.push_back({{60e-3, (j + 0.5) * 1.25e-3, (k + 0.5) * 1.25e-3}, {1, 0, 0}, 1.5625e-6});
+  p.bar = RigidBar{{{0.052, 0.05, -0.02}, {0.052, 0.05, 0.03}}, 0.004, {0, -1, 0}};
+  p.force_N = 5.0;
+  const ContactSolution s = solveContact(p);
+  EXPECT_EQ(s.outcome, ContactOutcome::Slips);
+  EXPECT_FALSE(s.solution.report.converged());
+  EXPECT_TRUE(s.capacityExceeded);
+  EXPECT_GT(s.capacity_N, 0.005);
+  EXPECT_LT(s.capacity_N, 5.0);
+}
+
+TEST(RigidBarContact, TheNumberOfThreadsDoesNotChangeABit) {
+  ContactProblem p = comparedBlock(5);
+  p.force_N = 2.0;
+  setThreadCount(1);
+  const ContactSolution one = solveContact(p);
+  setThreadCount(3);
+  const ContactSolution three = solveContact(p);
+  setThreadCount(0);
+  EXPECT_EQ(one.travel_m, three.travel_m);
+  EXPECT_EQ(one.solution.u_m, three.solution.u_m);
+}
+
+TEST(RigidBarContact, ABarThatMeetsNothingIsRefused) {
+  ContactProblem p = comparedBlock(10);
+  p.bar->centreline_m = {{0.5, 0.09, 0.05}, {0.6, 0.09, 0.05}};
+  p.force_N = 1.0;
+  EXPECT_THROW(solveContact(p), std::exception);
+}
+
+TEST(RigidBarContact, ABentBladeBearsItsForceToo) {
+  // A hook of the same length bears the same force, with a moment about its own centre near 0 on a flat block.
+  ContactProblem p = comparedBlock(5);
+  p.bar->centreline_m = hookCentreline({0.08, 0.09, 0.05}, {1, 0, 0}, {0, 0, 1}, 0.08, std::numbers::pi / 2);
+  p.force_N = 3.0;
+  const ContactSolution s = solveContact(p);
+  ASSERT_TRUE(s.solution.report.converged());
+  EXPECT_NEAR(s.force_N.y(), -3.0, 1e-5);
+  EXPECT_NEAR(p.bar->centre_m().z(), 0.05, 1e-4);
+}
+
+}  // namespace
+}  // namespace glisson::mechanics
