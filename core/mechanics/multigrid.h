@@ -46,7 +46,7 @@ class Multigrid {
   void cycle(const std::vector<double>& r, std::vector<double>& z);
 
   /// Takes the bound that always holds on every level; false where it is taken already. For a solve that met pᵀ A p ≤ 0
-  /// or rᵀ B r ≤ 0: the sharper bound fails once in a million bodies.
+  /// or rᵀ B r ≤ 0: the sharper bound fails in one body of ten thousand at worst.
   bool boundByCells();
 
   int levels() const;

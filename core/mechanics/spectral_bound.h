@@ -18,9 +18,9 @@ namespace glisson::mechanics {
 /// times (plain hexahedra, ν .499).
 double boundOverCells(const HexMatrix& K0, bool withMass);
 
-/// Sharper bound from k steps of the Lanczos method on D^{-1/2} A D^{-1/2}, ξ / 0.85 with its largest Ritz value ξ.
+/// Sharper bound from k steps of the Lanczos method on D^{-1/2} A D^{-1/2}, ξ / 0.87 with its largest Ritz value ξ.
 ///   The probability over random starts that ξ < (1 − ε) λ is at most 1.648 √n exp(−√ε (2k − 1)) for n unknowns
-/// whatever the spectrum [kuczynski1992estimating, theorem 4.2]; k is chosen to make that 1e-6 for ε = 0.15 (18 to 32).
+/// whatever the spectrum [kuczynski1992estimating]; k is chosen to make that 1e-4 for ε = 0.13 (18 to 26).
 /// The start is fixed, so that the same body gives the same bits. inverseDiagonal: 1 / D, 0 at fixed degrees of freedom
 /// and slots without a node; work arrays have A.size() values.
 double boundByIteration(const LatticeOperator<float>& A, const std::vector<float>& inverseDiagonal,

@@ -125,7 +125,8 @@ bool kinematicsValid(const Result& result) {
 
 void judgeByGap(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& landmarks_mm,
                 Result& result, const Progress& progress) {
-  if (result.kinematics != Kinematics::Linear || result.contact || !result.solver.converged()) return;
+  if (result.kinematics != Kinematics::Linear || result.contact || !result.solver.converged() || result.linearGap)
+    return;
   result.linearGap = linearGap(model, setup, result, landmarks_mm, progress);
   const LinearGap& gap = *result.linearGap;
   Diagnostics said;

@@ -44,7 +44,8 @@ LinearGap linearGap(const Model& model, const Setup& setup, const Result& result
                     int largestDofs = 60000);
 
 /// Puts the gap into a converged linear result; what is wrong with it joins the result's validity, and an unstable body
-/// takes away Result::linearTrusted. Does nothing for other results. Throws Cancelled.
+/// takes away Result::linearTrusted. Does nothing for other results, nor where the result has its gap already. Throws
+/// Cancelled.
 void judgeByGap(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& landmarks_mm,
                 Result& result, const Progress& progress = {});
 

@@ -103,7 +103,7 @@ struct AnalysisSpec {
   double h_ms = 1.0;
   double end_s = 2.0;
   std::array<double, 2> rayleigh = {0.0, 0.0};  ///< alpha 1/s, beta s
-  double stopWhenSteady = 1e-6;                 ///< relative change per step; 0 = never
+  double stopWhenSteady = 1e-6;  ///< relative unbalance and motion per step at rest (mechanics::isAtRest); 0 = never
 };
 
 /// How strain follows from displacement. Auto: linear where that is right to 0.2 mm, else hyperelastic.

@@ -46,6 +46,9 @@ TEST(LinearGapInMm, DecidesWhatIsTrusted) {
     ASSERT_NEAR(r.max_displacement_mm, tip_mm, 0.05 * tip_mm);
     const std::vector<Vector3d> landmarks = {{10, 5, 5}, {190, 5, 5}, {-40, 0, 0}};
     judgeByGap(m, s, landmarks, r);
+    const std::size_t said = r.validity.size();
+    judgeByGap(m, s, landmarks, r);
+    EXPECT_EQ(r.validity.size(), said) << "said once";
     ASSERT_TRUE(r.linearGap && r.linearGap->known);
     EXPECT_EQ(kinematicsValid(r), trusted) << tip_mm;
     EXPECT_TRUE(r.linearTrusted);
