@@ -214,8 +214,8 @@ TEST(RigidBarContact, LineContactFollowsHertz) {
     second += f * x * x;
   }
   // The pressure of an elliptic contact has the second moment a²/4.
-  EXPECT_NEAR(2 * std::sqrt(second / force), a, 0.04 * a);
-  EXPECT_NEAR(s.pressureMax_Pa, 2 * line_N_m / (std::numbers::pi * a), 0.06 * 2 * line_N_m / (std::numbers::pi * a));
+  EXPECT_NEAR(2 * std::sqrt(second / force), a, 0.03 * a);
+  EXPECT_NEAR(s.pressureMax_Pa, 2 * line_N_m / (std::numbers::pi * a), 0.03 * 2 * line_N_m / (std::numbers::pi * a));
 }
 
 TEST(RigidBarContact, ABarThatIsAskedForTooMuchSlipsAndSaysWhatItBore) {
@@ -238,8 +238,9 @@ TEST(RigidBarContact, ABarThatIsAskedForTooMuchSlipsAndSaysWhatItBore) {
   EXPECT_EQ(s.outcome, ContactOutcome::Slips);
   EXPECT_FALSE(s.solution.report.converged());
   EXPECT_TRUE(s.capacityExceeded);
-  EXPECT_GT(s.capacity_N, 0.005);
-  EXPECT_LT(s.capacity_N, 5.0);
+  // Beam theory: 3 E I w / L³ is 5 mN for a deflection of half its length, where the end stands at about 45°.
+  EXPECT_GT(s.capacity_N, 1e-3);
+  EXPECT_LT(s.capacity_N, 20e-3);
 }
 
 TEST(RigidBarContact, TheNumberOfThreadsDoesNotChangeABit) {
