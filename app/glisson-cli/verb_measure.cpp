@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
 
 #include "base/error.h"
 #include "image/io.h"
+#include "image/morphology.h"
 #include "image/resample.h"
 #include "pipeline/breath_hold.h"
 #include "pipeline/region_file.h"
@@ -72,6 +74,7 @@ int measure(const Arguments& a, const Context& context) {
     meaning.quantity = a.quantity == "shear" ? StiffnessQuantity::Shear : StiffnessQuantity::Youngs;
   if (!a.unit.empty()) meaning.unit = a.unit;
   meaning.roles = rolesFrom(a.roles);
+  meaning.mayBeUneven = true;
   const Progress progress = context.progress();
   pipeline::LoadedStiffness mre = pipeline::loadStiffness(a.mre, meaning, progress.part(0.0, 0.6));
   if (!a.label)
@@ -93,6 +96,8 @@ int measure(const Arguments& a, const Context& context) {
   }
   const auto said = pipeline::checkRoi(roi, mri ? &*mri : nullptr, &mre, a.overrideChecks);
   together.insert(together.end(), said.begin(), said.end());
+  if (a.registration && !mre.map.unevenSlices_mm.empty())
+    throw BadInput("a breath-hold correction needs evenly spaced slices, and the elastogram's are not");
   if (a.registration) registration = pipeline::fitToMri(mre, a.mre, a.magnitude, mri->volume, progress.part(0.9, 1.0));
   pipeline::checkRolesFound(meaning.roles, rolesNotFound);
   const elastography::MappedRoi mapped = pipeline::mapRoi(roi, mriGrid, mre.map);
@@ -105,8 +110,11 @@ int measure(const Arguments& a, const Context& context) {
   options.erosion_mm = a.erosion_mm;
   std::optional<image::Mask> excluded;
   if (!a.exclude.empty()) {
-    excluded = image::resampleNearest(image::readMask(a.exclude), mre.map.values_kPa.grid);
+    excluded = image::resampleNearest(image::readMask(a.exclude, 0, &mre.diagnostics), mre.map.values_kPa.grid);
     options.exclude = &*excluded;
+    if (!image::overlap(*excluded, mapped.mask)) mre.diagnostics.add(DiagnosticCode::ExclusionElsewhere);
+    for (const std::string& w : mre.diagnostics.texts(Severity::Warning))
+      if (std::find(mre.warnings.begin(), mre.warnings.end(), w) == mre.warnings.end()) mre.warnings.push_back(w);
   }
   options.poisson = a.poisson;
   const elastography::Measurement m = measured(mre.map, mapped, options);

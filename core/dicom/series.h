@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "base/progress.h"
 #include "image/volume.h"
 
@@ -53,7 +54,11 @@ struct Series {
   int encodingDirection = -1;          ///< of motion (raw elastography), from 0; -1 where not known
   std::optional<double> vibration_Hz;  ///< of a raw elastography acquisition, where the file says so
   std::optional<std::string> unit;     ///< "Pa", "kPa", ... where the role and the vendor say so
-  std::vector<std::string> warnings;
+  std::vector<int> fileOfSlice;  ///< of a multi-frame object cut into several files: which of files; else empty
+  std::vector<double> unevenSlices_mm;  ///< where slices lie unevenly or one is missing (error says so): heights above
+                                        ///< the first one along the normal; else empty
+  std::vector<std::string> warnings;   ///< texts, those of diagnostics among them
+  Diagnostics diagnostics;
   std::optional<std::string> error;    ///< why it cannot be read as a volume; readSeries throws BadInput with it
   std::shared_ptr<const void> folder;  ///< keeps the private folder of an unpacked archive while files are needed
 };
@@ -75,6 +80,10 @@ ScanResult scan(const std::filesystem::path& path, const Progress& progress = {}
 /// anything is allocated. Throws BadInput (series.error, truncated pixels, colour, undecodable syntax: names file and
 /// tag).
 image::ScalarVolume readSeries(const Series& series, const Progress& progress = {});
+
+/// The series without its error where that is only that slices lie unevenly or one is missing (unevenSlices_mm): for
+/// statistics, which count each slice by itself. Its grid is then no place but a stack, as far apart as the nearest two.
+Series asStack(const Series& series);
 
 /// The only series with this role, or the best of several by a stated rule. Throws BadInput where there is none, naming
 /// the roles that are there.

@@ -7,7 +7,9 @@
 #include <sstream>
 #include <tuple>
 
+#include "base/diagnostic.h"
 #include "base/error.h"
+#include "dicom/announced.h"
 #include "dicom/stored_frames.h"
 
 namespace glisson::dicom {
@@ -156,7 +158,9 @@ void split(Part part, std::vector<Part>& out) {
   }
   static constexpr const char* attributes[] = {
       "image type",     "complex component", "private image type", "echo number",  "echo time",
-      "inversion time", "diffusion b-value", "temporal position",  "trigger time", "acquisition number"};
+      "inversion time", "diffusion b-value", "temporal position",  "trigger time", "acquisition number",
+      "trigger delay",  "frame acquisition number", "time index",  "dimension index 1", "dimension index 2",
+      "dimension index 3", "dimension index 4",  "dimension index 5"};
   for (const char* attribute : attributes) {
     const std::string name = attribute;
     std::map<std::string, Planes, NaturalOrder> byValue;
@@ -176,7 +180,8 @@ void split(Part part, std::vector<Part>& out) {
       if ((name == "trigger time" || name == "acquisition number") && here < 2) sound = false;
     }
     if (!sound) continue;
-    const bool inTime = name == "temporal position" || name == "trigger time" || name == "acquisition number";
+    const bool inTime = name == "temporal position" || name == "trigger time" || name == "acquisition number" ||
+                        name == "trigger delay" || name == "time index";
     int rank = 0;
     for (auto& [value, planes] : byValue) {
       split({std::move(planes), part.told + (part.told.empty() ? "" : ", ") + name + " " + value.substr(0, 40),
@@ -194,6 +199,72 @@ std::string positionText(double along_mm) {
   s.precision(6);
   s << along_mm;
   return s.str();
+}
+
+/// Positions that were rounded to a tenth of a millimetre lie this near to an even spacing.
+constexpr double roundedWithin_mm = 0.1, roundedWithin = 0.1;
+/// Nearer than this (and this part of the spacing) they are even as they stand.
+constexpr double exactWithin_mm = 0.01, exactWithin = 0.001;
+
+/// The even spacing nearest to the slices.
+struct Stack {
+  double first_mm = 0.0, step_mm = 0.0;  ///< along the normal
+  double off_mm = 0.0;                   ///< largest distance of a slice from it
+  double smallest_mm = 0.0;              ///< of two slices
+  bool even = false;
+  std::size_t odd = 1;               ///< where not even: the slice whose distance from the one before is oddest
+  std::vector<std::string> missing;  ///< where even: places without a slice, at most ten
+};
+
+/// planes: at least two, ascending, none at one place.
+Stack stackOf(const Planes& planes) {
+  Stack s;
+  std::vector<double> gaps;
+  for (std::size_t n = 1; n < planes.size(); ++n) gaps.push_back(planes[n].along_mm - planes[n - 1].along_mm);
+  std::vector<double> sorted = gaps;
+  std::sort(sorted.begin(), sorted.end());
+  s.smallest_mm = sorted.front();
+  // The usual distance; with few slices and one missing, the smaller one is meant.
+  const double usual = sorted[(sorted.size() - 1) / 2];
+  std::vector<double> index{0.0};
+  for (const double gap : gaps) index.push_back(index.back() + std::max(1.0, std::round(gap / usual)));
+  const auto n = static_cast<double>(planes.size());
+  double meanIndex = 0.0, meanPlace = 0.0, both = 0.0, squares = 0.0;
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    meanIndex += index[p] / n;
+    meanPlace += planes[p].along_mm / n;
+  }
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    both += (index[p] - meanIndex) * (planes[p].along_mm - meanPlace);
+    squares += (index[p] - meanIndex) * (index[p] - meanIndex);
+  }
+  s.step_mm = both / squares;
+  s.first_mm = meanPlace - s.step_mm * meanIndex;
+  for (std::size_t p = 0; p < planes.size(); ++p)
+    s.off_mm = std::max(s.off_mm, std::abs(planes[p].along_mm - s.first_mm - s.step_mm * index[p]));
+  s.even = s.off_mm <= std::max(std::min(roundedWithin_mm, roundedWithin * s.step_mm), 0.005 + 0.01 * s.step_mm);
+  if (!s.even) {
+    s.step_mm = usual;
+    double oddest = -1.0;
+    for (std::size_t g = 0; g < gaps.size(); ++g)
+      if (const double off = std::abs(gaps[g] - usual); off > oddest) {
+        oddest = off;
+        s.odd = g + 1;
+      }
+    return s;
+  }
+  for (std::size_t p = 1; p < planes.size(); ++p)
+    for (double i = index[p - 1] + 1.0; i < index[p] && s.missing.size() < 10; i += 1.0)
+      s.missing.push_back(positionText(s.first_mm + i * s.step_mm) + " mm (between " + nameOf(planes[p - 1]) + " and " +
+                          nameOf(planes[p]) + ")");
+  return s;
+}
+
+void tellRounded(const Stack& stack, Series& series) {
+  Diagnostics one;
+  one.add(DiagnosticCode::PositionsRounded, {{"mm", stack.off_mm}, {"spacing_mm", stack.step_mm}});
+  series.diagnostics.add(one);
+  series.warnings.push_back(one.texts().front());
 }
 
 /// Sets spacing along the normal, or the error that says why there is none.
@@ -222,7 +293,7 @@ void spaceSlices(const Planes& planes, const Eigen::Vector3d& normal, Series& se
   for (const Plane& p : planes) {
     const Eigen::Vector3d step = p.frame->position_lps_mm - first.position_lps_mm;
     const double aside = (step - step.dot(normal) * normal).norm();
-    if (aside > std::max(0.02, 0.002 * std::abs(step.dot(normal)))) {
+    if (aside > std::max(roundedWithin_mm, 0.002 * std::abs(step.dot(normal)))) {
       std::ostringstream why;
       why << "its slices are not stacked along their normal (gantry tilt): " << nameOf(p) << " lies " << aside
           << " mm to the side of " << nameOf(planes.front()) << "; resample it to a regular grid first";
@@ -230,39 +301,31 @@ void spaceSlices(const Planes& planes, const Eigen::Vector3d& normal, Series& se
       return;
     }
   }
-  double smallest = planes[1].along_mm - planes[0].along_mm;
-  for (std::size_t n = 1; n < planes.size(); ++n)
-    smallest = std::min(smallest, planes[n].along_mm - planes[n - 1].along_mm);
-  const double tolerance = 0.01 * smallest + 0.005;
-  std::vector<std::string> missing;
-  std::optional<std::size_t> uneven;
-  for (std::size_t n = 1; n < planes.size(); ++n) {
-    const double gap = planes[n].along_mm - planes[n - 1].along_mm;
-    const double whole = std::round(gap / smallest);
-    if (std::abs(gap - whole * smallest) > tolerance * whole) {
-      if (!uneven) uneven = n;
-    } else {
-      for (int m = 1; m < static_cast<int>(whole) && missing.size() < 10; ++m)
-        missing.push_back(positionText(planes[n - 1].along_mm + m * smallest) + " mm (between " +
-                          nameOf(planes[n - 1]) + " and " + nameOf(planes[n]) + ")");
-    }
-  }
+  const Stack stack = stackOf(planes);
+  const double smallest = stack.smallest_mm;
   series.grid.spacing_mm.z() = smallest;
-  if (uneven) {
+  if (!stack.even || !stack.missing.empty())
+    for (const Plane& p : planes) series.unevenSlices_mm.push_back(p.along_mm - planes.front().along_mm);
+  if (!stack.even) {
     std::ostringstream why;
-    why << "its slices are unevenly spaced: " << planes[*uneven].along_mm - planes[*uneven - 1].along_mm
-        << " mm between " << nameOf(planes[*uneven - 1]) << " and " << nameOf(planes[*uneven]) << ", " << smallest
-        << " mm elsewhere; no averaged spacing is made up";
+    why << "its slices are unevenly spaced: " << planes[stack.odd].along_mm - planes[stack.odd - 1].along_mm
+        << " mm between " << nameOf(planes[stack.odd - 1]) << " and " << nameOf(planes[stack.odd]) << ", "
+        << stack.step_mm << " mm elsewhere; no averaged spacing is made up";
     series.warnings.push_back(why.str());
     series.error = why.str();
-  } else if (!missing.empty()) {
+  } else if (!stack.missing.empty()) {
     std::string places;
-    for (const std::string& place : missing) places += (places.empty() ? "" : "; ") + place;
+    for (const std::string& place : stack.missing) places += (places.empty() ? "" : "; ") + place;
     series.warnings.push_back("a slice is missing at " + places + " along the normal");
     series.error = "a slice is missing at " + places + " along the normal; add its file, or load a complete series";
   } else {
     series.grid.spacing_mm.z() =
         (planes.back().along_mm - planes.front().along_mm) / static_cast<double>(planes.size() - 1);
+    if (stack.off_mm > exactWithin_mm + exactWithin * stack.step_mm) {
+      series.grid.spacing_mm.z() = stack.step_mm;
+      series.grid.origin_lps_mm += (stack.first_mm - planes.front().along_mm) * normal;
+      tellRounded(stack, series);
+    }
     if (planes.size() == 2) series.warnings.push_back("has only 2 slices: too few for a 3-D model");
   }
   if (first.statedSpacing_mm && std::abs(*first.statedSpacing_mm - smallest) > 0.02 * smallest + 0.005) {
@@ -295,11 +358,17 @@ Series describe(const ImageHeader& h) {
 void addFiles(const Planes& planes, Series& series) {
   const bool multi = planes.front().header->frames.size() > 1 || planes.front().header->isMosaic();
   for (const Plane& p : planes) {
-    if (multi) series.frames.push_back(p.frame->number);
-    if (multi && !series.files.empty() && series.files.back() == p.header->file) continue;
+    auto known = series.files.end();
+    if (multi) {
+      series.frames.push_back(p.frame->number);
+      known = std::find(series.files.begin(), series.files.end(), p.header->file);
+      series.fileOfSlice.push_back(static_cast<int>(known - series.files.begin()));
+    }
+    if (known != series.files.end()) continue;
     series.files.push_back(p.header->file);
     series.sopInstanceUids.push_back(p.header->sopInstanceUid);
   }
+  if (series.files.size() == 1) series.fileOfSlice.clear();
   std::map<std::string, Planes> warned;
   for (const Plane& p : planes)
     if (&p.header->frames.front() == p.frame || planes.size() == 1) {
@@ -327,9 +396,16 @@ Series volumeOf(Planes planes, const Eigen::Vector3d& normal) {
   s.grid.direction.col(2) = normal;
   for (const Plane& p : planes)
     if (const auto why = undecodable(p.header->layout.transferSyntax)) s.error = nameOf(p) + ": " + *why;
+  for (const Plane& p : planes)
+    if (!p.header->contradicted.empty() && !s.error)
+      s.error = nameOf(p) + " and '" + p.header->contradicted.filename().string() +
+                "' are one image by their SOP instance and position, but hold different pixels; which of the two is meant "
+                "is not known: remove the other one";
   if (s.error) return s;
   for (const Plane& p : planes)
-    if (planes.front().header->frames.size() > 1 && p.header != planes.front().header) {
+    if (planes.front().header->frames.size() > 1 && p.header != planes.front().header &&
+        (h.announced.concatenationUid.empty() ||
+         p.header->announced.concatenationUid != h.announced.concatenationUid)) {
       s.error =
           "it spreads over several multi-frame files: " + namesOf({planes.front(), p}) + "; load one of them alone";
       return s;
@@ -379,6 +455,13 @@ std::vector<Series> buildVolumes(const std::vector<ImageHeader>& headers) {
     }
     out.push_back(std::move(s));
   }
+  std::map<std::string, std::vector<const ImageHeader*>> cut;
+  for (const ImageHeader& h : headers)
+    if (!h.announced.concatenationUid.empty()) cut[h.announced.concatenationUid].push_back(&h);
+  for (const auto& [uid, pieces] : cut)
+    if (const std::string why = missingParts(pieces); !why.empty())
+      for (Series& s : out)
+        if (!s.error) s.error = why;
   return out;
 }
 

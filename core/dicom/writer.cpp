@@ -138,10 +138,20 @@ void checkReferable(const Series& source, const char* what) {
     throw BadInput(std::string(what) + " cannot refer to images without a SOP Instance UID");
 }
 
+namespace {
+
+/// Which of the series' files holds a slice.
+std::size_t fileOf(const Series& source, std::size_t slice) {
+  if (source.frames.empty()) return slice;
+  return source.fileOfSlice.empty() ? 0 : static_cast<std::size_t>(source.fileOfSlice[slice]);
+}
+
+}  // namespace
+
 void referToSlice(DcmItem& item, const Series& source, std::size_t slice) {
   Writer image(item);
   image.text(DCM_ReferencedSOPClassUID, source.sopClassUid);
-  image.text(DCM_ReferencedSOPInstanceUID, source.sopInstanceUids[source.frames.empty() ? slice : 0]);
+  image.text(DCM_ReferencedSOPInstanceUID, source.sopInstanceUids[fileOf(source, slice)]);
   if (!source.frames.empty()) image.number(DCM_ReferencedFrameNumber, source.frames[slice] + 1);
 }
 

@@ -13,7 +13,7 @@ namespace glisson::elastography {
 /// skipped. Throws BadInput listing the names where none or several fit, or where the structure has no usable contour.
 roi::ContourStack roiFromStructures(const dicom::StructureSet& structures, const std::string& name = {});
 
-/// The reverse, for writing: polygons that count, drafts left out, holes as contours of their own (even-odd).
+/// The reverse, for writing: polygons that count, drafts and repeated ones left out, holes as contours of their own.
 dicom::Structure toStructure(const roi::ContourStack& contours, int number);
 
 }  // namespace glisson::elastography

@@ -63,12 +63,15 @@ const LoadedRoi& ExportCase::roi() {
   if (g.kind == GeometrySpec::Kind::Box)
     throw BadInput("this format needs a region of interest, and the scene is a box");
   roi_ = loadRoi(g.kind == GeometrySpec::Kind::Mask ? g.file : g.roi, g.roiName, g.label, progress_);
-  for (const std::string& w : roi_->warnings) warn(w);
   if (g.kind == GeometrySpec::Kind::Patient) {
     const AnatomicalImage mri = loadImage(g.mri, progress_, g.roles);
+    checkOutlines(*roi_, mri.volume.grid);
+    for (const std::string& w : roi_->warnings) warn(w);
     for (const std::string& w : checkRoi(*roi_, &mri, nullptr, g.overrideChecks)) warn(w);
     mriGrid_ = mri.volume.grid;
     if (const auto completed = completeOutlines(*roi_, *mriGrid_)) warn(*completed);
+  } else {
+    for (const std::string& w : roi_->warnings) warn(w);
   }
   return *roi_;
 }

@@ -1,5 +1,6 @@
 #include "pipeline/inputs.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "base/error.h"
@@ -42,6 +43,7 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
   clock.note("read-mri");
   progress.report(0.4, "reading the region of interest");
   LoadedRoi roi = loadRoi(g.roi, g.roiName, g.label, progress.part(0.4, 0.5));
+  checkOutlines(roi, mri.volume.grid);
   append(in.warnings, roi.warnings);
   append(in.warnings, checkRoi(roi, &mri, nullptr, g.overrideChecks));
   const std::optional<std::string> completed = completeOutlines(roi, mri.volume.grid);
@@ -57,7 +59,8 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
     checkRolesFound(g.roles, {mri.rolesNotFound, mre.rolesNotFound});
     in.roiOnMre = mapRoi(roi, mri.volume.grid, mre.map);
     for (const std::string& warning : in.roiOnMre->warnings)
-      if (warning != completed) in.warnings.push_back(warning);
+      if (warning != completed && std::find(in.warnings.begin(), in.warnings.end(), warning) == in.warnings.end())
+        in.warnings.push_back(warning);
     in.stiffness = std::move(mre.map);
     clock.note("read-mre");
   }

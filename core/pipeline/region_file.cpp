@@ -8,8 +8,15 @@
 #include "base/error.h"
 #include "base/quantity.h"
 #include "image/io.h"
+#include "image/morphology.h"
 
 namespace glisson::pipeline {
+namespace {
+
+/// No liver, nor a lobe of one that is worth a model, is smaller or larger: the unit of the coordinates is then another.
+constexpr double leastLiver_mL = 20.0, mostLiver_mL = 10'000.0;
+
+}  // namespace
 
 bool isRegionFile(const std::filesystem::path& path) {
   return image::isVolumeFile(path) || anatomy::isSurfaceFile(path);
@@ -32,11 +39,18 @@ std::string severalLabels(const std::filesystem::path& path) {
 }
 
 image::Mask readRegion(const std::filesystem::path& path, int label, std::optional<Eigen::Vector3d> cell_mm,
-                       std::vector<std::string>& warnings) {
+                       std::vector<std::string>& warnings, Diagnostics* diagnostics) {
+  const auto tell = [&](const Diagnostics& doubts) {
+    for (const std::string& text : doubts.texts(Severity::Warning)) warnings.push_back(text);
+    if (diagnostics != nullptr) diagnostics->add(doubts);
+  };
   if (!anatomy::isSurfaceFile(path)) {
     if (const std::string labels = label == 0 ? severalLabels(path) : std::string(); !labels.empty())
       warnings.push_back("the mask holds the labels " + labels + ": they were taken together, because none was chosen");
-    return image::readMask(path, label);
+    Diagnostics doubts;
+    image::Mask mask = image::readMask(path, label, &doubts);
+    tell(doubts);
+    return mask;
   }
   const anatomy::SurfaceFile file = anatomy::readSurface(path);
   const std::string name = "'" + path.filename().string() + "'";
@@ -54,7 +68,17 @@ image::Mask readRegion(const std::filesystem::path& path, int label, std::option
                    " mL if its coordinates are millimetres; scale it to millimetres");
   for (const std::string& w : file.warnings) warnings.push_back("the surface: " + w);
   if (label != 0) warnings.push_back("a label picks a value of a mask; this is a surface: it was not used");
-  return anatomy::voxelise(file.mesh, anatomy::gridAround(file.mesh, cell_mm));
+  Diagnostics doubts;
+  image::Mask mask = anatomy::voxelise(file.mesh, anatomy::gridAround(file.mesh, cell_mm), &doubts);
+  const double filled_mL =
+      static_cast<double>(image::count(mask)) * mask.grid.voxelVolume_mm3() / mm3PerMillilitre;
+  if (filled_mL < leastLiver_mL || filled_mL > mostLiver_mL) {
+    const Eigen::Vector3d extent_mm =
+        file.mesh.vertices_lps_mm.rowwise().maxCoeff() - file.mesh.vertices_lps_mm.rowwise().minCoeff();
+    doubts.add(DiagnosticCode::SurfaceSizeOdd, {{"mL", filled_mL}, {"longest_mm", extent_mm.maxCoeff()}});
+  }
+  tell(doubts);
+  return mask;
 }
 
 Eigen::Vector3d surfaceCell_mm(const GeometrySpec& geometry) {

@@ -1,6 +1,8 @@
 #include "pipeline/sources.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -8,8 +10,10 @@
 #include "dicom/seg.h"
 #include "elastography/roi_from_structures.h"
 #include "image/io.h"
+#include "image/morphology.h"
 #include "pipeline/file_names.h"
 #include "pipeline/region_file.h"
+#include "roi/arrangement.h"
 #include "roi/contour_io.h"
 #include "roi/interpolate.h"
 #include "roi/plane.h"
@@ -59,6 +63,25 @@ std::vector<std::string> doubtsAbout(const dicom::ScanResult& scan, const dicom:
           " slices was taken: give the folder of another, or its role with --role"};
 }
 
+/// Whether a series whose slices lie unevenly has them where the map's lie.
+bool usableBeside(const dicom::Series& series, const elastography::StiffnessMap& map) {
+  return !map.unevenSlices_mm.empty() && map.unevenSlices_mm.size() == series.unevenSlices_mm.size() &&
+         std::equal(map.unevenSlices_mm.begin(), map.unevenSlices_mm.end(), series.unevenSlices_mm.begin(),
+                    [](double a, double b) { return std::abs(a - b) < 0.1; });
+}
+
+std::vector<std::pair<std::string, DiagnosticValue>> unevenness(const dicom::Series& series) {
+  double smallest = 1e300, largest = 0.0;
+  for (std::size_t k = 1; k < series.unevenSlices_mm.size(); ++k) {
+    const double gap = series.unevenSlices_mm[k] - series.unevenSlices_mm[k - 1];
+    smallest = std::min(smallest, gap);
+    largest = std::max(largest, gap);
+  }
+  return {{"slices", static_cast<std::int64_t>(series.unevenSlices_mm.size())},
+          {"smallest_mm", smallest},
+          {"largest_mm", largest}};
+}
+
 /// The segment that is asked for: by label number, by name, else the one called liver, else the only one.
 int segmentNumber(const dicom::SegmentationSet& set, const std::string& name, int label) {
   if (label != 0) return label;
@@ -82,7 +105,8 @@ AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& pro
                           const dicom::RoleOverrides& roles) {
   AnatomicalImage out;
   if (std::filesystem::is_regular_file(path) && image::isVolumeFile(path)) {
-    out.volume = image::readVolume(path);
+    out.volume = image::readVolume(path, &out.diagnostics);
+    append(out.warnings, out.diagnostics.texts(Severity::Warning));
     for (const auto& [which, role] : roles) out.rolesNotFound.push_back(which);
     return out;
   }
@@ -108,7 +132,8 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
       throw BadInput("'" + path.filename().string() +
                      "' is a bare map: say what it holds, quantity shear or youngs (--quantity) and unit Pa, kPa or "
                      "<factor>kPa (--unit)");
-    out.map = elastography::makeStiffnessMap(image::readVolume(path), *meaning.quantity, *meaning.unit);
+    out.map = elastography::makeStiffnessMap(image::readVolume(path, &out.diagnostics), *meaning.quantity, *meaning.unit);
+    append(out.warnings, out.diagnostics.texts(Severity::Warning));
     for (const auto& [which, role] : meaning.roles) out.rolesNotFound.push_back(which);
     return out;
   }
@@ -117,7 +142,8 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
   if (scan.series.empty())
     throw BadInput("no image series was found in '" + path.filename().string() + "'" +
                    (scan.skipped.empty() ? "" : ": " + scan.skipped.front().reason));
-  const dicom::Series& series = seriesFor(scan, dicom::SeriesRole::Stiffness);
+  const dicom::Series& found = seriesFor(scan, dicom::SeriesRole::Stiffness);
+  const dicom::Series series = meaning.mayBeUneven ? dicom::asStack(found) : found;
   if (series.colour)
     throw BadInput("the series '" + series.description +
                    "' is in colour: a coloured elastogram is not a stiffness map; "
@@ -132,7 +158,7 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
                                            meaning.quantity.value_or(StiffnessQuantity::Shear), *unit);
   if (std::none_of(meaning.roles.begin(), meaning.roles.end(),
                    [](const auto& given) { return given.second == dicom::SeriesRole::Stiffness; }))
-    append(out.warnings, doubtsAbout(scan, series));
+    append(out.warnings, doubtsAbout(scan, found));
   if (meaning.unit && series.unit && *meaning.unit != *series.unit)
     out.warnings.push_back("the series says that its stiffness is in " + *series.unit + "; it was taken as " +
                            *meaning.unit + ", as asked for");
@@ -142,13 +168,21 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
         "says "
         "otherwise (a third of it)");
   out.map.frameOfReferenceUid = series.frameOfReferenceUid;
+  if (meaning.mayBeUneven && !series.unevenSlices_mm.empty()) {
+    out.map.unevenSlices_mm = series.unevenSlices_mm;
+    Diagnostics uneven;
+    uneven.add(DiagnosticCode::SlicesUneven, unevenness(series));
+    out.diagnostics.add(uneven);
+    append(out.warnings, uneven.texts());
+  }
   out.patientKey = series.patientKey;
   out.studyDate = series.studyDate;
   out.studyUid = series.studyUid;
   append(out.warnings, warningsOf(scan, series, true));
   for (const dicom::Series& s : scan.series)
-    if (s.role == dicom::SeriesRole::Confidence && !s.error && s.studyUid == series.studyUid) {
-      elastography::attachConfidence(out.map, dicom::readSeries(s, progress.part(0.8, 1.0)));
+    if (s.role == dicom::SeriesRole::Confidence && (!s.error || usableBeside(s, out.map)) &&
+        s.studyUid == series.studyUid) {
+      elastography::attachConfidence(out.map, dicom::readSeries(dicom::asStack(s), progress.part(0.8, 1.0)));
       break;
     }
   if (!out.map.confidence)
@@ -186,7 +220,7 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
   if (extensionOf(path) == ".json") {
     out.contours = roi::readContours(path);
   } else if (isRegionFile(path)) {
-    out.mask = readRegion(path, label, std::nullopt, out.warnings);
+    out.mask = readRegion(path, label, std::nullopt, out.warnings, &out.diagnostics);
   } else if (dicom::isSegmentation(path)) {
     const dicom::SegmentationSet set = dicom::readSegmentation(path);
     append(out.warnings, set.warnings);
@@ -205,6 +239,13 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
   if (label != 0 && !out.mask)
     out.warnings.push_back("a label picks a value of a mask; these are contours: it was not used");
   return out;
+}
+
+void checkOutlines(LoadedRoi& roi, const image::Grid& mriGrid) {
+  if (!roi.contours) return;
+  const Diagnostics doubts = roi::outlineDoubts(*roi.contours, mriGrid, true);
+  roi.diagnostics.add(doubts);
+  append(roi.warnings, doubts.texts(Severity::Warning));
 }
 
 std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& mriGrid) {
@@ -233,8 +274,48 @@ std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& m
   return text;
 }
 
+namespace {
+
+/// Where slices lie unevenly: the region on each of them by itself.
+elastography::MappedRoi mapOnSlices(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
+                                    const elastography::StiffnessMap& map) {
+  const image::Grid& stack = map.values_kPa.grid;
+  elastography::MappedRoi all;
+  all.mask = image::Mask(stack);
+  std::string why;
+  for (std::size_t k = 0; k < map.unevenSlices_mm.size(); ++k) {
+    elastography::StiffnessMap slice;
+    slice.frameOfReferenceUid = map.frameOfReferenceUid;
+    slice.values_kPa.grid = stack;
+    slice.values_kPa.grid.size.z() = 1;
+    slice.values_kPa.grid.origin_lps_mm += map.unevenSlices_mm[k] * stack.direction.col(2);
+    try {
+      elastography::MappedRoi one = mapRoi(roi, mriGrid, slice);
+      std::ranges::copy(one.mask.values, all.mask.values.begin() + static_cast<std::ptrdiff_t>(
+                                                                       stack.linear(0, 0, static_cast<int>(k))));
+      all.coverage += one.coverage;
+      all.coincidentSlices += one.coincidentSlices;
+      all.sampledSlices += one.sampledSlices;
+      all.diagnostics.add(one.diagnostics);
+    } catch (const BadInput& e) {
+      why = e.what();
+    }
+  }
+  if (image::count(all.mask) == 0) throw BadInput(why);
+  all.coverage = std::min(1.0, all.coverage);
+  append(all.warnings, all.diagnostics.texts(Severity::Warning));
+  if (!roi.frameOfReferenceUid.empty() && !map.frameOfReferenceUid.empty() &&
+      roi.frameOfReferenceUid != map.frameOfReferenceUid)
+    all.warnings.push_back(
+        "the region of interest and the elastogram have different frames of reference; confirm that they fit");
+  return all;
+}
+
+}  // namespace
+
 elastography::MappedRoi mapRoi(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
                                const elastography::StiffnessMap& map) {
+  if (!map.unevenSlices_mm.empty()) return mapOnSlices(roi, mriGrid, map);
   if (roi.contours) {
     LoadedRoi complete;
     complete.contours = roi.contours;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "base/progress.h"
 #include "dicom/origin.h"
 #include "dicom/series.h"
@@ -24,6 +25,7 @@ struct AnatomicalImage {
   std::string studyDate;            ///< to compare, never to show
   std::string studyUid;
   std::vector<std::string> warnings;
+  Diagnostics diagnostics;                 ///< as data; those that are warnings are in warnings too
   std::vector<std::string> rolesNotFound;  ///< series named in roles that are not here
 };
 
@@ -37,6 +39,7 @@ struct MapMeaning {
   std::optional<StiffnessQuantity> quantity;
   std::optional<std::string> unit;
   dicom::RoleOverrides roles{};  ///< set by hand
+  bool mayBeUneven = false;      ///< for statistics alone: slices may lie unevenly (StiffnessMap::unevenSlices_mm)
 };
 
 struct LoadedStiffness {
@@ -45,6 +48,7 @@ struct LoadedStiffness {
   std::string studyDate;
   std::string studyUid;
   std::vector<std::string> warnings;
+  Diagnostics diagnostics;                 ///< as in AnatomicalImage
   std::vector<std::string> rolesNotFound;  ///< as in AnatomicalImage
 };
 
@@ -76,6 +80,7 @@ struct LoadedRoi {
   std::optional<roi::ContourStack> contours;
   std::optional<image::Mask> mask;
   std::vector<std::string> warnings;
+  Diagnostics diagnostics;          ///< as data; those that are warnings are in warnings too
   std::string frameOfReferenceUid;  ///< of DICOM objects and contour files that name one; else empty
   dicom::Origin origin;             ///< of DICOM objects; else empty
   std::string referencedSeriesUid;  ///< the series that the Segmentation was made on; empty where it names none
@@ -96,6 +101,10 @@ std::vector<std::string> checkRoi(const LoadedRoi& roi, const AnatomicalImage* m
 
 /// Whether regions of several readers may be compared: the same rules, each with the first; overridden as above.
 std::vector<std::string> checkReaders(const std::vector<LoadedRoi>& rois, bool overridden);
+
+/// Adds to the region's diagnostics and warnings what is doubtful about its outlines on the image that they were drawn
+/// on (roi::outlineDoubts); nothing where it came as voxels.
+void checkOutlines(LoadedRoi& roi, const image::Grid& mriGrid);
 
 /// Fills empty slices between outlined ones by shape, where the region came as polygons (roi/interpolate.h). Returns
 /// what to tell the user, empty where every slice between the first and the last outlined one holds an outline that was

@@ -62,6 +62,11 @@ void exchange(Wire& w, ImageHeader& h) {
   w(h.step.time);
   w(h.step.frequency);
   w(h.step.vibration_Hz);
+  w(h.announced.images);
+  w(h.announced.slices);
+  w(h.announced.concatenationUid);
+  w(h.announced.part);
+  w(h.announced.parts);
   exchangeFrames(w, h.frames);
   w(h.warnings);
 }
@@ -126,6 +131,7 @@ ImageHeader headerFrom(const std::string& message, std::uint64_t fileBytes) {
   for (std::string* text : {&h.layout.transferSyntax, &h.studyUid, &h.frameOfReferenceUid, &h.sopClassUid, &h.modality,
                             &h.description, &h.imageType, &h.manufacturer, &h.sequenceName, &h.unit})
     *text = shownFrom(std::move(*text));
+  h.announced.concatenationUid = shownFrom(std::move(h.announced.concatenationUid));
   for (std::string& warning : h.warnings) warning = shownFrom(std::move(warning));
   return h;
 }
