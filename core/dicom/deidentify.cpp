@@ -4,11 +4,13 @@
 #include <chrono>
 #include <fstream>
 #include <map>
+#include <sstream>
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include "base/error.h"
+#include "base/part_file.h"
 #include "base/text.h"
 #include "dicom/detail/attributes.h"
 #include "dicom/detail/deidentify_actions.h"
@@ -281,28 +283,21 @@ void save(DcmDataset& data, const ByteSource& source, const FileLayout& layout, 
   const bool compressed = layout.pixels && layout.pixels->encapsulated;
   const std::string syntax = compressed ? layout.transferSyntax : DcmXfer(written).getXferID();
   const std::uint64_t end = endOfPixels(layout);
-  const auto header = file.parent_path() / ("." + file.filename().string() + ".header");
-  const auto temporary = file.parent_path() / ("." + file.filename().string() + ".part");
-  bool good = data.saveFile(header.c_str(), written, EET_ExplicitLength).good();
-  if (good) {
-    std::ifstream from(header, std::ios::binary);
-    std::ofstream to(temporary, std::ios::binary);
-    to << metaInformation(text(data, DCM_SOPClassUID), text(data, DCM_SOPInstanceUID), syntax) << from.rdbuf();
-    for (std::uint64_t at = layout.headerEnd; at < end;) {
-      const std::uint64_t part = std::min<std::uint64_t>(end - at, 1U << 20);
-      const std::vector<std::uint8_t> bytes = source.bytes(at, part);
-      to.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-      at += part;
-    }
-    to.flush();
-    good = static_cast<bool>(to) && static_cast<bool>(from);
+  PartFile header(file), whole(file);
+  if (data.saveFile(header.path().c_str(), written, EET_ExplicitLength).bad())
+    throw Error("a de-identified file cannot be written; is the folder writable, and the disk not full?");
+  std::ifstream from(header.path(), std::ios::binary);
+  std::ostringstream start;
+  start << metaInformation(text(data, DCM_SOPClassUID), text(data, DCM_SOPInstanceUID), syntax) << from.rdbuf();
+  const std::string head = start.str();
+  whole.write(head.data(), head.size());
+  for (std::uint64_t at = layout.headerEnd; at < end;) {
+    const std::uint64_t piece = std::min<std::uint64_t>(end - at, 1U << 20);
+    const std::vector<std::uint8_t> bytes = source.bytes(at, piece);
+    whole.write(bytes.data(), bytes.size());
+    at += piece;
   }
-  std::error_code failed;
-  std::filesystem::remove(header, failed);
-  if (good) std::filesystem::rename(temporary, file, failed);
-  if (good && !failed) return;
-  std::filesystem::remove(temporary, failed);
-  throw Error("a de-identified file cannot be written; is the folder writable, and the disk not full?");
+  whole.become();
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/part_file.h"
 #include "base/text.h"
 #include "image/completeness.h"
 #include "image/detail/nifti.h"
@@ -257,22 +258,6 @@ Volume<T> read(const std::filesystem::path& file, Diagnostics* doubts) {
   }
 }
 
-/// Moves a finished file to its name so that a crash leaves the old file or the new one, never half of one.
-void publish(const std::filesystem::path& temporary, const std::filesystem::path& file) {
-  const int descriptor = open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor >= 0) {
-    fsync(descriptor);
-    close(descriptor);
-  }
-  std::filesystem::rename(temporary, file);
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  const int directory = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (directory >= 0) {
-    fsync(directory);
-    close(directory);
-  }
-}
-
 void write(const std::filesystem::path& file, const Grid& grid, ImageIO::IOComponentEnum type, unsigned components,
            const void* data) {
   const Format format = formatOf(file);
@@ -283,14 +268,13 @@ void write(const std::filesystem::path& file, const Grid& grid, ImageIO::IOCompo
     throw BadInput(quoted(file) +
                    ": NIfTI readers disagree on the axes of vectors; write a displacement field as .nrrd or .mha");
   const char* ending = format == Format::NiftiGz ? ".nii.gz" : format == Format::Nifti ? ".nii" : nullptr;
-  const auto temporary = file.parent_path() / ("." + file.stem().string() + ".part-" + std::to_string(getpid()) +
-                                               (ending != nullptr ? ending : extension));
   std::error_code ignored;
   if (!std::filesystem::is_directory(file.has_parent_path() ? file.parent_path() : ".", ignored))
     throw BadInput(quoted(file) + " cannot be written: its folder is not there");
+  PartFile part(file, ending != nullptr ? ending : extension);
   try {
     const ImageIO::Pointer io = makeIO(format);
-    io->SetFileName(temporary.string());
+    io->SetFileName(part.path().string());
     io->SetNumberOfDimensions(3);
     itk::ImageIORegion region(3);
     for (unsigned axis = 0; axis < 3; ++axis) {
@@ -309,12 +293,8 @@ void write(const std::filesystem::path& file, const Grid& grid, ImageIO::IOCompo
     io->SetUseCompression(format != Format::Nifti);
     io->WriteImageInformation();
     io->Write(data);
-    publish(temporary, file);
+    part.become();
   } catch (const itk::ExceptionObject&) {
-    std::filesystem::remove(temporary, ignored);
-    throw BadInput(quoted(file) + " cannot be written; is the folder there, writable, and the disk not full?");
-  } catch (const std::filesystem::filesystem_error&) {
-    std::filesystem::remove(temporary, ignored);
     throw BadInput(quoted(file) + " cannot be written; is the folder there, writable, and the disk not full?");
   }
 }

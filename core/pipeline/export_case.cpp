@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "image/resample.h"
 #include "pipeline/detail/export_case.h"
+#include "pipeline/replay.h"
 #include "roi/polygon.h"
 
 namespace glisson::pipeline::detail {
@@ -17,6 +18,9 @@ ExportCase::ExportCase(const ExportRequest& request, const Progress& progress)
       throw BadInput("the folder holds no scene.json: give a scene file, or the folder that a run has written");
   }
   scene_ = readScene(file);
+  if (const auto record = runFolder_ / "run.json"; !runFolder_.empty() && std::filesystem::exists(record))
+    for (const std::string& name : filesOfAnotherRun(record))
+      warn("'" + name + "' in the run's folder is not the file that its run.json was written with");
   std::error_code failed;
   std::filesystem::create_directories(request.output, failed);
   if (failed || !std::filesystem::is_directory(request.output))

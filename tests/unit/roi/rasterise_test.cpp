@@ -122,7 +122,7 @@ TEST(Rasterise, RefusesWhatDoesNotMeetTheGrid) {
 
 TEST(Rasterise, RefusesTilt) {
   const image::Grid g = grids()[2];
-  for (const double degrees : {0.9, 1.1, 90.0}) {
+  for (const double degrees : {0.9, 20.0, 90.0}) {
     Polygon p = rectangle(g, 2, 3.5, 3.5, 8.5, 8.5);
     const Eigen::Vector3d centre = p.points_lps_mm.rowwise().mean();
     const Eigen::Matrix3d turn =
