@@ -67,7 +67,8 @@ TriangleMesh tidied(const TriangleMesh& mesh, double within_mm, Walls walls) {
     const bool turned = (c[0] < c[1]) + (c[1] < c[2]) + (c[2] < c[0]) == 1;
     auto& there = kept[key];
     if (!there[0] && !there[1]) order.push_back(key);
-    if (!there[turned ? 1 : 0]) there[turned ? 1 : 0] = c;
+    std::optional<Eigen::Vector3i>& turn = turned ? there[1] : there[0];
+    if (!turn) turn = c;
   }
   std::vector<Eigen::Vector3i> triangles;
   for (const auto& key : order) {

@@ -24,9 +24,9 @@ int countOf(DcmItem& item, const DcmTagKey& tag) {
   return 0;
 }
 
-/// A private count in the block that its maker reserved.
+/// A private count in the block that its maker reserved, one of the first ones.
 int privateCount(DcmItem& item, Uint16 group, Uint16 element, const std::string& creator) {
-  for (Uint16 block = 0x10; block <= 0xFF; ++block)
+  for (Uint16 block = 0x10; block <= 0x1F; ++block)
     if (text(item, DcmTagKey(group, block)) == creator)
       return countOf(item, DcmTagKey(group, static_cast<Uint16>(block << 8U | element)));
   return 0;
@@ -45,8 +45,9 @@ Announced announcedBy(DcmDataset& data) {
   Announced a;
   a.images = countOf(data, DCM_ImagesInAcquisition);
   a.slices = countOf(data, DCM_NumberOfSlices);
-  if (a.slices == 0) a.slices = privateCount(data, 0x2001, 0x18, "Philips Imaging DD 001");
-  if (a.slices == 0) a.slices = privateCount(data, 0x0021, 0x4F, "GEMS_RELA_01");
+  const std::string maker = text(data, DCM_Manufacturer);
+  if (a.slices == 0 && maker.starts_with("Philips")) a.slices = privateCount(data, 0x2001, 0x18, "Philips Imaging DD 001");
+  if (a.slices == 0 && maker.starts_with("GE")) a.slices = privateCount(data, 0x0021, 0x4F, "GEMS_RELA_01");
   a.concatenationUid = shownText(data, DCM_ConcatenationUID);
   a.part = countOf(data, DCM_InConcatenationNumber);
   a.parts = countOf(data, DCM_InConcatenationTotalNumber);

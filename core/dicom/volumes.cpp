@@ -328,9 +328,10 @@ void spaceSlices(const Planes& planes, const Eigen::Vector3d& normal, Series& se
     }
     if (planes.size() == 2) series.warnings.push_back("has only 2 slices: too few for a 3-D model");
   }
-  if (first.statedSpacing_mm && std::abs(*first.statedSpacing_mm - smallest) > 0.02 * smallest + 0.005) {
+  const double taken_mm = series.grid.spacing_mm.z();
+  if (first.statedSpacing_mm && std::abs(*first.statedSpacing_mm - taken_mm) > 0.02 * taken_mm + 0.005) {
     std::ostringstream why;
-    why << "says that its slices are " << *first.statedSpacing_mm << " mm apart; their positions say " << smallest
+    why << "says that its slices are " << *first.statedSpacing_mm << " mm apart; their positions say " << taken_mm
         << " mm, which is used";
     series.warnings.push_back(why.str());
   }
