@@ -14,6 +14,7 @@
 #include "dicom/detail/parsed_objects.h"
 #include "dicom/reader_process.h"
 #include "dicom/seg.h"
+#include "dicom/slice_stack.h"
 
 namespace glisson::dicom {
 namespace {
@@ -42,7 +43,7 @@ image::Grid latticeOf(const SegHeader& h, std::vector<int>& sliceOfFrame) {
   const auto fits = [&](double s) {
     return std::all_of(levels.begin(), levels.end(), [&](double level) {
       const double k = (level - levels.front()) / s;
-      return std::abs(k - std::round(k)) * s <= std::max(0.01 * s + 0.005, std::min(0.1, 0.1 * s));
+      return std::abs(k - std::round(k)) * s <= std::max(0.01 * s + 0.005, std::min(roundedWithin_mm, 0.1 * s));
     });
   };
   // What the header calls spacing is a cross-check: positions decide where they can.

@@ -10,6 +10,7 @@
 #include "base/diagnostic.h"
 #include "base/error.h"
 #include "dicom/announced.h"
+#include "dicom/slice_stack.h"
 #include "dicom/stored_frames.h"
 
 namespace glisson::dicom {
@@ -201,66 +202,7 @@ std::string positionText(double along_mm) {
   return s.str();
 }
 
-/// Positions that were rounded to a tenth of a millimetre lie this near to an even spacing.
-constexpr double roundedWithin_mm = 0.1, roundedWithin = 0.1;
-/// Nearer than this (and this part of the spacing) they are even as they stand.
-constexpr double exactWithin_mm = 0.01, exactWithin = 0.001;
-
-/// The even spacing nearest to the slices.
-struct Stack {
-  double first_mm = 0.0, step_mm = 0.0;  ///< along the normal
-  double off_mm = 0.0;                   ///< largest distance of a slice from it
-  double smallest_mm = 0.0;              ///< of two slices
-  bool even = false;
-  std::size_t odd = 1;               ///< where not even: the slice whose distance from the one before is oddest
-  std::vector<std::string> missing;  ///< where even: places without a slice, at most ten
-};
-
-/// planes: at least two, ascending, none at one place.
-Stack stackOf(const Planes& planes) {
-  Stack s;
-  std::vector<double> gaps;
-  for (std::size_t n = 1; n < planes.size(); ++n) gaps.push_back(planes[n].along_mm - planes[n - 1].along_mm);
-  std::vector<double> sorted = gaps;
-  std::sort(sorted.begin(), sorted.end());
-  s.smallest_mm = sorted.front();
-  // The usual distance; with few slices and one missing, the smaller one is meant.
-  const double usual = sorted[(sorted.size() - 1) / 2];
-  std::vector<double> index{0.0};
-  for (const double gap : gaps) index.push_back(index.back() + std::max(1.0, std::round(gap / usual)));
-  const auto n = static_cast<double>(planes.size());
-  double meanIndex = 0.0, meanPlace = 0.0, both = 0.0, squares = 0.0;
-  for (std::size_t p = 0; p < planes.size(); ++p) {
-    meanIndex += index[p] / n;
-    meanPlace += planes[p].along_mm / n;
-  }
-  for (std::size_t p = 0; p < planes.size(); ++p) {
-    both += (index[p] - meanIndex) * (planes[p].along_mm - meanPlace);
-    squares += (index[p] - meanIndex) * (index[p] - meanIndex);
-  }
-  s.step_mm = both / squares;
-  s.first_mm = meanPlace - s.step_mm * meanIndex;
-  for (std::size_t p = 0; p < planes.size(); ++p)
-    s.off_mm = std::max(s.off_mm, std::abs(planes[p].along_mm - s.first_mm - s.step_mm * index[p]));
-  s.even = s.off_mm <= std::max(std::min(roundedWithin_mm, roundedWithin * s.step_mm), 0.005 + 0.01 * s.step_mm);
-  if (!s.even) {
-    s.step_mm = usual;
-    double oddest = -1.0;
-    for (std::size_t g = 0; g < gaps.size(); ++g)
-      if (const double off = std::abs(gaps[g] - usual); off > oddest) {
-        oddest = off;
-        s.odd = g + 1;
-      }
-    return s;
-  }
-  for (std::size_t p = 1; p < planes.size(); ++p)
-    for (double i = index[p - 1] + 1.0; i < index[p] && s.missing.size() < 10; i += 1.0)
-      s.missing.push_back(positionText(s.first_mm + i * s.step_mm) + " mm (between " + nameOf(planes[p - 1]) + " and " +
-                          nameOf(planes[p]) + ")");
-  return s;
-}
-
-void tellRounded(const Stack& stack, Series& series) {
+void tellRounded(const SliceStack& stack, Series& series) {
   Diagnostics one;
   one.add(DiagnosticCode::PositionsRounded, {{"mm", stack.off_mm}, {"spacing_mm", stack.step_mm}});
   series.diagnostics.add(one);
@@ -301,7 +243,9 @@ void spaceSlices(const Planes& planes, const Eigen::Vector3d& normal, Series& se
       return;
     }
   }
-  const Stack stack = stackOf(planes);
+  std::vector<double> along_mm;
+  for (const Plane& p : planes) along_mm.push_back(p.along_mm);
+  const SliceStack stack = stackOf(along_mm);
   const double smallest = stack.smallest_mm;
   series.grid.spacing_mm.z() = smallest;
   if (!stack.even || !stack.missing.empty())
@@ -315,13 +259,15 @@ void spaceSlices(const Planes& planes, const Eigen::Vector3d& normal, Series& se
     series.error = why.str();
   } else if (!stack.missing.empty()) {
     std::string places;
-    for (const std::string& place : stack.missing) places += (places.empty() ? "" : "; ") + place;
+    for (const SliceStack::Gap& gap : stack.missing)
+      places += (places.empty() ? "" : "; ") + positionText(gap.at_mm) + " mm (between " +
+                nameOf(planes[gap.before - 1]) + " and " + nameOf(planes[gap.before]) + ")";
     series.warnings.push_back("a slice is missing at " + places + " along the normal");
     series.error = "a slice is missing at " + places + " along the normal; add its file, or load a complete series";
   } else {
     series.grid.spacing_mm.z() =
         (planes.back().along_mm - planes.front().along_mm) / static_cast<double>(planes.size() - 1);
-    if (stack.off_mm > exactWithin_mm + exactWithin * stack.step_mm) {
+    if (!stack.exact) {
       series.grid.spacing_mm.z() = stack.step_mm;
       series.grid.origin_lps_mm += (stack.first_mm - planes.front().along_mm) * normal;
       tellRounded(stack, series);
@@ -462,7 +408,10 @@ std::vector<Series> buildVolumes(const std::vector<ImageHeader>& headers) {
   for (const auto& [uid, pieces] : cut)
     if (const std::string why = missingParts(pieces); !why.empty())
       for (Series& s : out)
-        if (!s.error) s.error = why;
+        if (!s.error || !s.unevenSlices_mm.empty()) {
+          s.error = why;
+          s.unevenSlices_mm.clear();
+        }
   return out;
 }
 

@@ -1,5 +1,6 @@
 #include "pipeline/region_file.h"
 
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -58,20 +59,21 @@ image::Mask readRegion(const std::filesystem::path& path, int label, std::option
     throw BadInput("the surface " + name +
                    " is not closed, so it has no inside: close its holes, keep one shell of triangles, and turn them "
                    "all the same way round");
-  constexpr double mm3PerMillilitre = 1000.0;
-  const double mL = anatomy::volume_mm3(file.mesh) / mm3PerMillilitre;
-  std::ostringstream size;
-  size.precision(3);
-  size << mL;
-  if (mL < 1.0)
-    throw BadInput("the surface " + name + " holds " + size.str() +
-                   " mL if its coordinates are millimetres; scale it to millimetres");
   for (const std::string& w : file.warnings) warnings.push_back("the surface: " + w);
   if (label != 0) warnings.push_back("a label picks a value of a mask; this is a surface: it was not used");
   Diagnostics doubts;
   image::Mask mask = anatomy::voxelise(file.mesh, anatomy::gridAround(file.mesh, cell_mm), &doubts);
-  const double filled_mL =
-      static_cast<double>(image::count(mask)) * mask.grid.voxelVolume_mm3() / mm3PerMillilitre;
+  constexpr double mm3PerMillilitre = 1000.0;
+  const double filled_mL = static_cast<double>(image::count(mask)) * mask.grid.voxelVolume_mm3() / mm3PerMillilitre;
+  if (filled_mL < 1.0) {
+    // Of a surface smaller than a cell no voxel is left to say how small.
+    const double mL = filled_mL > 0.0 ? filled_mL : std::abs(anatomy::volume_mm3(file.mesh)) / mm3PerMillilitre;
+    std::ostringstream size;
+    size.precision(3);
+    size << mL;
+    throw BadInput("the surface " + name + " holds " + size.str() +
+                   " mL if its coordinates are millimetres; scale it to millimetres");
+  }
   if (filled_mL < leastLiver_mL || filled_mL > mostLiver_mL) {
     const Eigen::Vector3d extent_mm =
         file.mesh.vertices_lps_mm.rowwise().maxCoeff() - file.mesh.vertices_lps_mm.rowwise().minCoeff();

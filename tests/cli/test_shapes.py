@@ -182,7 +182,7 @@ class Surfaces(InAFolder):
 
     def test_another_unit_is_doubted(self):
         self.silent_about(self.body(sphere((0, 0, 0), 60), cell=8), "millimetres")
-        self.said(self.body(sphere((0, 0, 0), 6), cell=0.8), "millimetres", "mL")
+        self.said(self.body(sphere((0, 0, 0), 10), cell=1.2), "millimetres", "mL")
         self.said(self.body(sphere((0, 0, 0), 600), cell=80), "millimetres", "mL")
 
 
@@ -252,7 +252,8 @@ class Places(InAFolder):
         (self.folder / "link.raw").symlink_to(self.folder / "other.raw")
         self.assertIn("plain name", self.nrrd(*axes, "data file: link.raw", code=3))
         meta = ["ObjectType = Image", "NDims = 3", "DimSize = 5 4 3", "ElementType = MET_UCHAR", "Offset = 1 2 3",
-                "ElementSpacing = 2 2 5", "ElementDataFile = LOCAL"]
+                "ElementSpacing = 2 2 5", "BinaryData = True", "BinaryDataByteOrderMSB = False",
+                "ElementDataFile = LOCAL"]
         def mha(lines, code=0):
             (self.folder / "v.mha").write_bytes(("\n".join(lines) + "\n").encode() + b"\1" * 60)
             call = ("convert", self.folder / "v.mha", self.folder / "out.nii")

@@ -55,6 +55,8 @@ def image(folder, k, z, value=2000, series="stiffness", number=401, description=
     d.ImageOrientationPatient = [1, 0, 0, 0, 1, 0]
     d.ImagePositionPatient = [ORIGIN[0], ORIGIN[1], round(z, 6)]
     grey(d, words(([left] * (COLUMNS // 2) + [right] * (COLUMNS // 2)) * ROWS))
+    if "(Pa)" in description:
+        d.RescaleSlope, d.RescaleIntercept, d.RescaleType = "1", "0", "Pa"
     for key, v in more.items():
         setattr(d, key, v)
     folder.mkdir(parents=True, exist_ok=True)
