@@ -82,7 +82,9 @@ void addConvert(CLI::App& app, Context& context) {
       std::ostringstream text;
       if (std::filesystem::is_regular_file(a->in) && image::isVolumeFile(a->in)) {
         if (!a->series.empty()) warnings.push_back("a volume file holds no series: --series was not used");
-        volume = image::readVolume(a->in);
+        Diagnostics doubts;
+        volume = image::readVolume(a->in, &doubts);
+        for (const std::string& w : doubts.texts(Severity::Warning)) warnings.push_back(w);
       } else {
         const dicom::ScanResult scan = dicom::scan(a->in, progress.part(0.0, 0.5));
         const dicom::Series& series = chosen(scan, a->series);

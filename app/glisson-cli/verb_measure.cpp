@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -5,6 +6,7 @@
 #include "base/error.h"
 #include "diagnostics_json.h"
 #include "image/io.h"
+#include "image/morphology.h"
 #include "image/resample.h"
 #include "pipeline/breath_hold.h"
 #include "pipeline/region_file.h"
@@ -87,6 +89,7 @@ int measure(const Arguments& a, const Context& context) {
     meaning.quantity = a.quantity == "shear" ? StiffnessQuantity::Shear : StiffnessQuantity::Youngs;
   if (!a.unit.empty()) meaning.unit = a.unit;
   meaning.roles = rolesFrom(a.roles);
+  meaning.mayBeUneven = true;
   const Progress progress = context.progress();
   meaning.confidenceScale = a.confidenceScale;
   if (!a.label)
@@ -111,6 +114,8 @@ int measure(const Arguments& a, const Context& context) {
   }
   const auto said = pipeline::checkRoi(roi, mri ? &*mri : nullptr, &mre, a.overrideChecks);
   together.insert(together.end(), said.begin(), said.end());
+  if (a.registration && !mre.map.unevenSlices_mm.empty())
+    throw BadInput("a breath-hold correction needs evenly spaced slices, and the elastogram's are not");
   Diagnostics diagnostics = mre.diagnostics;
   diagnostics.add(roi.diagnostics);
   if (mri) diagnostics.add(mri->diagnostics);
@@ -130,8 +135,13 @@ int measure(const Arguments& a, const Context& context) {
   options.erosion_mm = a.erosion_mm;
   std::optional<image::Mask> excluded;
   if (!a.exclude.empty()) {
-    excluded = image::resampleNearest(image::readMask(a.exclude), mre.map.values_kPa.grid);
+    Diagnostics about;
+    excluded = image::resampleNearest(image::readMask(a.exclude, 0, &about), mre.map.values_kPa.grid);
     options.exclude = &*excluded;
+    if (!image::overlap(*excluded, mapped.mask)) about.add(DiagnosticCode::ExclusionElsewhere);
+    diagnostics.add(about);
+    for (const std::string& w : about.texts(Severity::Warning))
+      if (std::find(mre.warnings.begin(), mre.warnings.end(), w) == mre.warnings.end()) mre.warnings.push_back(w);
   }
   options.poisson = a.poisson;
   const elastography::Measurement m = measured(mre.map, mapped, options);
@@ -165,6 +175,7 @@ int measure(const Arguments& a, const Context& context) {
        std::initializer_list<const std::vector<std::string>*>{&together, &roi.warnings, &mapped.warnings, &m.warnings})
     warnings.insert(warnings.end(), more->begin(), more->end());
   j["warnings"] = warnings;
+  diagnostics.add(mapped.diagnostics);
   diagnostics.add(m.diagnostics);
   j["diagnostics"] = diagnosticsJson(diagnostics, warnings);
   refuseIfStrict(context, diagnostics, warnings);

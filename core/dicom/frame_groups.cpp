@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 #include "base/error.h"
@@ -90,6 +91,35 @@ void readGeometry(const FrameView& view, Frame& frame) {
   frame.statedSpacing_mm = lenient(DCM_SpacingBetweenSlices);
 }
 
+/// The frame's places along the dimensions that its file declares, but for those that count slices.
+void addDimensions(DcmItem& data, DcmItem& content, Frame& frame) {
+  const DcmTagKey slices[] = {DCM_InStackPositionNumber, DCM_StackID, DCM_ImagePositionPatient,
+                              DCM_ImageOrientationPatient};
+  const DcmTagKey times[] = {DCM_NominalCardiacTriggerDelayTime, DCM_TemporalPositionIndex, DCM_TriggerTime,
+                             DCM_NominalPercentageOfCardiacPhase, DCM_FrameReferenceDateTime,
+                             DCM_FrameAcquisitionDateTime};
+  std::vector<double> values;
+  try {
+    values = numbers(content, DCM_DimensionIndexValues);
+  } catch (const BadInput&) {  // no numbers: as good as none
+  }
+  int other = 0;
+  for (unsigned long d = 0; d < values.size() && d < 8; ++d) {
+    DcmItem* dimension = itemOf(data, DCM_DimensionIndexSequence, d);
+    DcmElement* element = nullptr;
+    DcmTagKey pointer;
+    if (dimension == nullptr || dimension->findAndGetElement(DCM_DimensionIndexPointer, element).bad()) continue;
+    auto* attribute = dynamic_cast<DcmAttributeTag*>(element);
+    if (attribute == nullptr || attribute->getTagVal(pointer).bad()) continue;
+    const auto in = [&pointer](const auto& list) {
+      return std::find(std::begin(list), std::end(list), pointer) != std::end(list);
+    };
+    if (in(slices)) continue;
+    frame.kinds.emplace_back(in(times) ? "time index" : "dimension index " + std::to_string(++other),
+                             std::to_string(std::lround(values[d])));
+  }
+}
+
 void readKinds(const FrameView& view, DcmItem& data, const std::string& privateType, Frame& frame) {
   const auto add = [&frame](const char* what, const std::string& value) {
     if (!value.empty()) frame.kinds.emplace_back(what, value);
@@ -110,6 +140,10 @@ void readKinds(const FrameView& view, DcmItem& data, const std::string& privateT
       text(content, &content == &data ? DCM_TemporalPositionIdentifier : DCM_TemporalPositionIndex));
   add("trigger time", text(data, DCM_TriggerTime));
   add("acquisition number", text(data, DCM_AcquisitionNumber));
+  if (&content == &data) return;
+  add("trigger delay", text(view.group(DCM_CardiacSynchronizationSequence), DCM_NominalCardiacTriggerDelayTime));
+  add("frame acquisition number", text(content, DCM_FrameAcquisitionNumber));
+  addDimensions(data, content, frame);
 }
 
 }  // namespace

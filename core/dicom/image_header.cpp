@@ -241,6 +241,7 @@ ImageHeader parsed(const std::filesystem::path& file, const ByteSource& source, 
       h.warnings.push_back(nameOf(DCM_SeriesNumber) + " or " + nameOf(DCM_InstanceNumber) + " is no number");
     }
     readAcquisition(data, h);
+    h.announced = announcedBy(data);
     readPixelDescription(data, h);
     readPadding(data, h);
     const std::uint64_t frames = checkedFrameCount(data, h, source, fileBytes);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "dicom/announced.h"
 #include "dicom/file_layout.h"
 #include "dicom/map_quantity.h"
 
@@ -102,6 +103,8 @@ struct ImageHeader {
   bool burnedIn = false;  ///< says that its pixels hold text about the patient
   bool isolated = false;  ///< was parsed in a reader process, which decodes its pixels too
   int instanceNumber = 0;
+  Announced announced;
+  std::filesystem::path contradicted;  ///< another file of this SOP instance and place with other pixels; else empty
   MosaicTile tile;
   ElastographyStep step;
   PixelKind kind = PixelKind::Integer;

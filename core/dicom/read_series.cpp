@@ -47,6 +47,7 @@ void readFile(const Series& series, std::size_t index, image::ScalarVolume& volu
       return;
     }
     for (std::size_t k = 0; k < series.frames.size(); ++k) {
+      if (!series.fileOfSlice.empty() && static_cast<std::size_t>(series.fileOfSlice[k]) != index) continue;
       const auto frame = static_cast<std::size_t>(series.frames[k]);
       if (frame >= header.frames.size()) throw BadInput("has fewer frames than when it was scanned; scan it again");
       slice(header.frames[frame], volume.values.data() + k * sliceSize);
@@ -64,7 +65,8 @@ image::ScalarVolume readFiles(const Series& series, const Progress& progress, Re
   if (series.colour) throw BadInput(which + "its pixels are colours, not measured values");
   const std::size_t slices = series.frames.empty() ? series.files.size() : series.frames.size();
   if (series.files.empty() || slices != static_cast<std::size_t>(series.grid.size.z()) ||
-      (!series.frames.empty() && series.files.size() != 1))
+      (!series.frames.empty() && (series.fileOfSlice.empty() ? series.files.size() != 1
+                                                             : series.fileOfSlice.size() != series.frames.size())))
     throw BadInput(which + "its list of files does not match its number of slices");
   series.grid.check();
   image::ScalarVolume volume(series.grid);
@@ -89,6 +91,12 @@ ReadMap readMap(const Series& series, const Progress& progress) {
   ReadMap map;
   map.values = readFiles(series, progress, &map);
   return map;
+}
+
+Series asStack(const Series& series) {
+  Series stack = series;
+  if (!series.unevenSlices_mm.empty()) stack.error.reset();
+  return stack;
 }
 
 }  // namespace glisson::dicom

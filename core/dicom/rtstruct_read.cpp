@@ -143,6 +143,7 @@ StructureSet readData(DcmDataset& data) {
         return;
       }
       StructureContour contour = readContour(contourItem, where, set.warnings);
+      contour.exclusiveOr = kind == "CLOSEDPLANAR_XOR";
       if (contour.points_lps_mm.cols() < 3)
         ++tooShort;
       else

@@ -68,6 +68,9 @@ struct Series {
   int encodingDirection = -1;          ///< of motion (raw elastography), from 0; -1 where not known
   std::optional<double> vibration_Hz;  ///< of a raw elastography acquisition, where the file says so
   std::optional<std::string> unit;     ///< "Pa", "kPa", ... where the role and the vendor say so
+  std::vector<int> fileOfSlice;  ///< of a multi-frame object cut into several files: which of files; else empty
+  std::vector<double> unevenSlices_mm;  ///< where slices lie unevenly or one is missing (error says so): heights above
+                                        ///< the first one along the normal; else empty
   std::optional<MapQuantity> quantity; ///< where a code of the file says so
   bool masked = false;                 ///< a stiffness map that is called a masked copy: without what is not trusted
   Acquired acquired;
@@ -108,6 +111,10 @@ ReadMap readMap(const Series& series, const Progress& progress = {});
 
 /// Adds a diagnostic and its text.
 void tell(Series& series, DiagnosticCode code, std::vector<std::pair<std::string, DiagnosticValue>> arguments = {});
+
+/// The series without its error where that is only that slices lie unevenly or one is missing (unevenSlices_mm): for
+/// statistics, which count each slice by itself. Its grid is then no place but a stack, as far apart as the nearest two.
+Series asStack(const Series& series);
 
 /// The only series with this role, or the best of several by a stated rule. Throws BadInput where there is none, naming
 /// the roles that are there.

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "roi/arrangement.h"
 #include "roi/polygon.h"
 
 namespace glisson::elastography {
@@ -93,6 +94,7 @@ roi::ContourStack roiFromStructures(const dicom::StructureSet& structures, const
     roi::Polygon polygon;
     polygon.points_lps_mm = roi::distinctRing(contour.points_lps_mm);
     polygon.sopInstanceUid = contour.referencedSopInstanceUid;
+    if (contour.exclusiveOr) polygon.combine = roi::Combine::Parity;
     if (polygon.points_lps_mm.cols() >= 3) result.polygons.push_back(std::move(polygon));
   }
   if (result.polygons.empty())
@@ -106,9 +108,10 @@ dicom::Structure toStructure(const roi::ContourStack& contours, int number) {
   dicom::Structure result;
   result.number = number;
   result.name = contours.name;
-  for (const roi::Polygon& polygon : contours.polygons)
+  for (const roi::Polygon& polygon : roi::withoutRepeats(contours).polygons)
     if (polygon.state != roi::PolygonState::Draft && !polygon.exclude)
-      result.contours.push_back({polygon.points_lps_mm, polygon.sopInstanceUid});
+      result.contours.push_back(
+          {polygon.points_lps_mm, polygon.sopInstanceUid, polygon.combine == roi::Combine::Parity});
   return result;
 }
 

@@ -18,7 +18,7 @@ namespace glisson::elastography {
 roi::ContourStack roiFromStructures(const dicom::StructureSet& structures, const std::string& name = {},
                                     int number = 0, Diagnostics* said = nullptr);
 
-/// The reverse, for writing: polygons that count, drafts left out, holes as contours of their own (even-odd).
+/// The reverse, for writing: polygons that count, drafts and repeated ones left out, holes as contours of their own.
 dicom::Structure toStructure(const roi::ContourStack& contours, int number);
 
 }  // namespace glisson::elastography

@@ -17,6 +17,9 @@ struct StiffnessMap {
   std::optional<image::ScalarVolume> confidence;  ///< 0 ... 1, on the same grid
   std::optional<image::Mask> noConfidence;        ///< voxels that the confidence map says nothing about; empty: none
   std::string frameOfReferenceUid;                ///< empty where unknown
+  /// Where slices lie unevenly: their heights above the first one along the normal. The grid then only stacks them:
+  /// statistics hold, volumes and places between slices do not. Else empty.
+  std::vector<double> unevenSlices_mm;
 };
 
 /// kPa per stored unit: "Pa" (0.001), "kPa" (1), "<factor>kPa", e.g. "0.01kPa" (0.01); a space before the unit is

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "image/resample.h"
 #include "pipeline/detail/export_case.h"
+#include "pipeline/replay.h"
 #include "roi/polygon.h"
 
 namespace glisson::pipeline::detail {
@@ -17,6 +18,9 @@ ExportCase::ExportCase(const ExportRequest& request, const Progress& progress)
       throw BadInput("the folder holds no scene.json: give a scene file, or the folder that a run has written");
   }
   scene_ = readScene(file);
+  if (const auto record = runFolder_ / "run.json"; !runFolder_.empty() && std::filesystem::exists(record))
+    for (const std::string& name : filesOfAnotherRun(record))
+      warn("'" + name + "' in the run's folder is not the file that its run.json was written with");
   std::error_code failed;
   std::filesystem::create_directories(request.output, failed);
   if (failed || !std::filesystem::is_directory(request.output))
@@ -66,14 +70,17 @@ const LoadedRoi& ExportCase::roi() {
   if (g.kind == GeometrySpec::Kind::Box)
     throw BadInput("this format needs a region of interest, and the scene is a box");
   roi_ = loadRoi(g.kind == GeometrySpec::Kind::Mask ? g.file : g.roi, g.roiName, g.label, progress_);
-  for (const std::string& w : roi_->warnings) warn(w);
   if (g.kind == GeometrySpec::Kind::Patient) {
     const AnatomicalImage mri = loadImage(g.mri, progress_, g.roles, roi_->names);
+    checkOutlines(*roi_, mri.volume.grid);
+    for (const std::string& w : roi_->warnings) warn(w);
     for (const std::string& w : checkRoi(*roi_, &mri, nullptr, g.overrideChecks)) warn(w);
     for (const std::string& w : mri.diagnostics.texts(Severity::Warning)) warn(w);
     for (const std::string& w : doubtsAboutOutline(*roi_, &mri, nullptr).texts(Severity::Warning)) warn(w);
     mriGrid_ = mri.volume.grid;
     if (const auto completed = completeOutlines(*roi_, *mriGrid_)) warn(*completed);
+  } else {
+    for (const std::string& w : roi_->warnings) warn(w);
   }
   return *roi_;
 }

@@ -1,5 +1,6 @@
 #include "pipeline/inputs.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "base/error.h"
@@ -52,6 +53,7 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
   take(in, mri);
   clock.note("read-mri");
   progress.report(0.4, "placing the region of interest");
+  checkOutlines(roi, mri.volume.grid);
   take(in, roi);
   append(in.warnings, checkRoi(roi, &mri, nullptr, g.overrideChecks));
   const std::optional<std::string> completed = completeOutlines(roi, mri.volume.grid);
@@ -69,8 +71,11 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
     append(in.warnings, checkTogether(mri, *mre, g.overrideChecks));
     checkRolesFound(g.roles, {mri.rolesNotFound, mre->rolesNotFound});
     in.roiOnMre = mapRoi(roi, mri.volume.grid, mre->map);
+    for (const Diagnostic& d : in.roiOnMre->diagnostics)
+      if (!in.diagnostics.contains(d.code)) in.diagnostics.add(d.code, d.arguments);
     for (const std::string& warning : in.roiOnMre->warnings)
-      if (warning != completed) in.warnings.push_back(warning);
+      if (warning != completed && std::find(in.warnings.begin(), in.warnings.end(), warning) == in.warnings.end())
+        in.warnings.push_back(warning);
     clock.note("read-mre");
   }
   const Diagnostics doubts = doubtsAboutOutline(roi, &mri, mre ? &*mre : nullptr);
@@ -90,7 +95,7 @@ Inputs loadInputs(const Scene& scene, const Progress& progress) {
   if (g.kind == GeometrySpec::Kind::Patient) loadPatient(scene, needs, in, progress);
   StepClock clock(in);
   if (g.kind == GeometrySpec::Kind::Mask) {
-    in.liver = readRegion(g.file, g.label, surfaceCell_mm(g), in.warnings);
+    in.liver = readRegion(g.file, g.label, surfaceCell_mm(g), in.warnings, &in.diagnostics);
     clock.note("read-roi");
     if (needs.mriValues && !g.background.empty()) in.mri = loadImage(g.background, progress).volume;
     if (needs.mriValues) clock.note("read-mri");

@@ -92,7 +92,7 @@ int outlinedSeries(const dicom::ScanResult& scan, const OutlineNames& names, Dia
 }
 
 const dicom::Series& seriesFor(const dicom::ScanResult& scan, SeriesRole role, const OutlineNames& names,
-                               Diagnostics& said) {
+                               Diagnostics& said, bool mayBeUneven) {
   const int named = outlinedSeries(scan, names, &said);
   const std::string what = role == SeriesRole::Stiffness ? "elastogram" : "MRI";
   const bool byHand = std::any_of(scan.series.begin(), scan.series.end(),
@@ -120,16 +120,18 @@ const dicom::Series& seriesFor(const dicom::ScanResult& scan, SeriesRole role, c
   const std::vector<dicom::Acquisition> all = dicom::acquisitions(scan);
   const dicom::Acquisition *outlined = acquisitionOf(all, named), *own = acquisitionOf(all, indexOf(scan, taken));
   if (outlined == nullptr || own == nullptr || outlined == own) return taken;
-  const bool there = outlined->stiffness >= 0 && !scan.series[static_cast<std::size_t>(outlined->stiffness)].error;
-  if (byHand || !there) {
+  const dicom::Series* other =
+      outlined->stiffness >= 0 ? &scan.series[static_cast<std::size_t>(outlined->stiffness)] : nullptr;
+  const bool usable =
+      other != nullptr && (!other->error || (mayBeUneven && !other->unevenSlices_mm.empty()));
+  if (byHand || !usable) {
     said.add(DiagnosticCode::OutlinedSeriesNotTaken, {{"named", numberOf(scan, named)},
                                                       {"taken", static_cast<std::int64_t>(taken.number)},
                                                       {"what", what}});
     return taken;
   }
-  const dicom::Series& other = scan.series[static_cast<std::size_t>(outlined->stiffness)];
-  said.add(DiagnosticCode::SeriesByOutline, {{"series", static_cast<std::int64_t>(other.number)}, {"what", what}});
-  return other;
+  said.add(DiagnosticCode::SeriesByOutline, {{"series", static_cast<std::int64_t>(other->number)}, {"what", what}});
+  return *other;
 }
 
 Diagnostics planesOffTheirImages(const OutlineNames& names, const std::vector<const dicom::ScanResult*>& scans,

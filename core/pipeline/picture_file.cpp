@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/part_file.h"
 #include "base/sha256.h"
 
 namespace glisson::pipeline {
@@ -172,18 +173,12 @@ void writePictureFile(const std::filesystem::path& file, const PictureData& data
   const std::string header = j.dump();
   const std::uint64_t length = header.size();
 
-  const std::filesystem::path beside = file.string() + ".part";
-  {
-    std::ofstream out(beside, std::ios::binary);
-    out.write(magic, sizeof magic);
-    out.write(reinterpret_cast<const char*>(&length), sizeof length);
-    out << header << body.bytes();
-    out.flush();
-    if (!out) throw BadInput("cannot write " + named(file) + "; is the disk full or the folder read-only?");
-  }
-  std::error_code failed;
-  std::filesystem::rename(beside, file, failed);
-  if (failed) throw BadInput("cannot write " + named(file) + ": " + failed.message());
+  PartFile part(file);
+  part.write(magic, sizeof magic);
+  part.write(&length, sizeof length);
+  part.write(header.data(), header.size());
+  part.write(body.bytes().data(), body.bytes().size());
+  part.become();
 }
 
 PictureData readPictureFile(const std::filesystem::path& file) {

@@ -10,6 +10,7 @@
 #include "anatomy/surface.h"
 #include "anatomy/vessels.h"
 #include "base/error.h"
+#include "base/folder_claim.h"
 #include "elastography/statistics.h"
 #include "exchange/sofa.h"
 #include "image/io.h"
@@ -338,6 +339,9 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   }
   if (!options.output.empty()) {
     detail::Writer writer(options.output, r.files);
+    const FolderClaim claim(options.output);
+    // The record comes last: without it, nobody takes what a killed run has left for a result, nor for a former one's.
+    for (const char* name : {"run.json", "report.html", "report.pdf"}) std::filesystem::remove(options.output / name);
     steps.run("write-displacement-field", [&](const Progress&) { writer.displacementFields(r); });
     if (scene.outputs.vessels && needs.vessels) writer.vessels(scene, r, vessels);
     if (r.stiffness) writer.stiffness(*r.stiffness);

@@ -1,6 +1,8 @@
 #include "pipeline/sources.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <set>
 
 #include "base/error.h"
@@ -12,8 +14,10 @@
 #include "dicom/seg.h"
 #include "elastography/roi_from_structures.h"
 #include "image/io.h"
+#include "image/morphology.h"
 #include "pipeline/file_names.h"
 #include "pipeline/region_file.h"
+#include "roi/arrangement.h"
 #include "roi/contour_io.h"
 #include "roi/interpolate.h"
 #include "roi/plane.h"
@@ -61,6 +65,49 @@ std::vector<std::string> doubtsAbout(const dicom::ScanResult& scan, const dicom:
   return {std::to_string(count) + " stiffness series are here: " + all + "; " + which + " with " +
           std::to_string(taken.grid.size.z()) +
           " slices was taken: give the folder of another, or its role with --role"};
+}
+
+/// Every series as dicom::asStack.
+dicom::ScanResult asStacks(dicom::ScanResult scan) {
+  for (dicom::Series& s : scan.series) s = dicom::asStack(s);
+  return scan;
+}
+
+/// Whether a series whose slices lie unevenly has them where the map's lie.
+bool usableBeside(const dicom::Series& series, const elastography::StiffnessMap& map) {
+  const image::Grid& grid = map.values_kPa.grid;
+  const double apart_mm = (series.grid.origin_lps_mm - grid.origin_lps_mm).dot(grid.direction.col(2));
+  return std::abs(apart_mm) < 0.1 && map.unevenSlices_mm.size() == series.unevenSlices_mm.size() &&
+         std::equal(map.unevenSlices_mm.begin(), map.unevenSlices_mm.end(), series.unevenSlices_mm.begin(),
+                    [](double a, double b) { return std::abs(a - b) < 0.1; });
+}
+
+std::vector<std::pair<std::string, DiagnosticValue>> unevenness(const dicom::Series& series) {
+  double smallest = 1e300, largest = 0.0;
+  for (std::size_t k = 1; k < series.unevenSlices_mm.size(); ++k) {
+    const double gap = series.unevenSlices_mm[k] - series.unevenSlices_mm[k - 1];
+    smallest = std::min(smallest, gap);
+    largest = std::max(largest, gap);
+  }
+  return {{"slices", static_cast<std::int64_t>(series.unevenSlices_mm.size())},
+          {"smallest_mm", smallest},
+          {"largest_mm", largest}};
+}
+
+/// Attaches the confidence series that goes with the map; of a map whose slices lie unevenly only one with the same
+/// slices.
+void takeConfidence(const dicom::Series& series, const MapMeaning& meaning, LoadedStiffness& out, Diagnostics& said,
+                    const Progress& progress) {
+  if (out.map.unevenSlices_mm.empty()) {
+    readConfidence(series, meaning.confidenceScale, out.map, said, progress);
+  } else if (usableBeside(series, out.map)) {
+    dicom::Series stack = dicom::asStack(series);
+    stack.grid.spacing_mm.z() = out.map.values_kPa.grid.spacing_mm.z();
+    readConfidence(stack, meaning.confidenceScale, out.map, said, progress);
+  } else {
+    said.add(DiagnosticCode::ConfidenceOnOtherSlices, {{"series", static_cast<std::int64_t>(series.number)}});
+    out.acquisition.confidence = -1;
+  }
 }
 
 /// The segment that is asked for: by label number, by name, else the one called liver, else the only one.
@@ -128,7 +175,8 @@ AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& pro
                           const dicom::RoleOverrides& roles, const OutlineNames& outlined) {
   AnatomicalImage out;
   if (std::filesystem::is_regular_file(path) && image::isVolumeFile(path)) {
-    out.volume = image::readVolume(path);
+    out.volume = image::readVolume(path, &out.diagnostics);
+    append(out.warnings, out.diagnostics.texts(Severity::Warning));
     for (const auto& [which, role] : roles) out.rolesNotFound.push_back(which);
     return out;
   }
@@ -159,7 +207,8 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
       throw BadInput("'" + path.filename().string() +
                      "' is a bare map: say what it holds, quantity shear or youngs (--quantity) and unit Pa, kPa or "
                      "<factor>kPa (--unit)");
-    out.map = elastography::makeStiffnessMap(image::readVolume(path), *meaning.quantity, *meaning.unit);
+    out.map = elastography::makeStiffnessMap(image::readVolume(path, &out.diagnostics), *meaning.quantity, *meaning.unit);
+    append(out.warnings, out.diagnostics.texts(Severity::Warning));
     for (const auto& [which, role] : meaning.roles) out.rolesNotFound.push_back(which);
     return out;
   }
@@ -170,9 +219,10 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
     throw BadInput("no image series was found in '" + path.filename().string() + "'" +
                    (scan->skipped.empty() ? "" : ": " + scan->skipped.front().reason));
   Diagnostics said;
-  const dicom::Series& series = seriesFor(*scan, dicom::SeriesRole::Stiffness, meaning.outlined, said);
+  const dicom::Series& series = seriesFor(*scan, dicom::SeriesRole::Stiffness, meaning.outlined, said, meaning.mayBeUneven);
+  const dicom::Series stack = meaning.mayBeUneven ? dicom::asStack(series) : series;
   const bool outlined = said.contains(DiagnosticCode::SeriesByOutline);
-  out.map = readStiffness(series, meaning, said, progress.part(0.4, 0.8));
+  out.map = readStiffness(stack, meaning, said, progress.part(0.4, 0.8));
   if (!dicom::setByHand(series) && !outlined) append(out.warnings, doubtsAbout(*scan, series));
   if (meaning.unit && series.unit && *meaning.unit != *series.unit)
     out.warnings.push_back("the series says that its stiffness is in " + *series.unit + "; it was taken as " +
@@ -182,16 +232,21 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
         "the series was taken as Young's modulus, as asked for; MR elastography reports the shear modulus unless it "
         "says "
         "otherwise (a third of it)");
+  if (!series.unevenSlices_mm.empty()) {
+    out.map.unevenSlices_mm = series.unevenSlices_mm;
+    said.add(DiagnosticCode::SlicesUneven, unevenness(series));
+  }
   out.patientKey = series.patientKey;
   out.studyDate = series.studyDate;
   out.studyUid = series.studyUid;
   append(out.warnings, warningsOf(*scan, series, true));
   out.diagnostics.add(series.diagnostics);
-  out.acquisition = dicom::partnersOf(*scan, static_cast<int>(&series - scan->series.data()));
+  const bool uneven = !out.map.unevenSlices_mm.empty();
+  out.acquisition =
+      dicom::partnersOf(uneven ? asStacks(*scan) : *scan, static_cast<int>(&series - scan->series.data()));
   said.add(out.acquisition.diagnostics);
-  if (out.acquisition.confidence >= 0)
-    readConfidence(scan->series[static_cast<std::size_t>(out.acquisition.confidence)], meaning.confidenceScale, out.map,
-                   said, progress.part(0.8, 1.0));
+  if (const int c = out.acquisition.confidence; c >= 0)
+    takeConfidence(scan->series[static_cast<std::size_t>(c)], meaning, out, said, progress.part(0.8, 1.0));
   if (!out.map.confidence) said.add(DiagnosticCode::NoConfidenceMap);
   tell(out, said);
   return out;
@@ -212,7 +267,7 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
   if (extensionOf(path) == ".json") {
     out.contours = roi::readContours(path);
   } else if (isRegionFile(path)) {
-    out.mask = readRegion(path, label, std::nullopt, out.warnings);
+    out.mask = readRegion(path, label, std::nullopt, out.warnings, &out.diagnostics);
   } else if (dicom::isSegmentation(path)) {
     const dicom::SegmentationSet set = dicom::readSegmentation(path);
     append(out.warnings, set.warnings);
@@ -269,6 +324,13 @@ Diagnostics doubtsAboutOutline(const LoadedRoi& roi, const AnatomicalImage* mri,
   return said;
 }
 
+void checkOutlines(LoadedRoi& roi, const image::Grid& mriGrid) {
+  if (!roi.contours) return;
+  const Diagnostics doubts = roi::outlineDoubts(*roi.contours, mriGrid, true);
+  roi.diagnostics.add(doubts);
+  append(roi.warnings, doubts.texts(Severity::Warning));
+}
+
 std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& mriGrid) {
   if (!roi.contours) return std::nullopt;
   *roi.contours = roi::interpolateBetween(*roi.contours, mriGrid);
@@ -295,8 +357,48 @@ std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& m
   return text;
 }
 
+namespace {
+
+/// Where slices lie unevenly: the region on each of them by itself.
+elastography::MappedRoi mapOnSlices(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
+                                    const elastography::StiffnessMap& map) {
+  const image::Grid& stack = map.values_kPa.grid;
+  elastography::MappedRoi all;
+  all.mask = image::Mask(stack);
+  std::string why;
+  for (std::size_t k = 0; k < map.unevenSlices_mm.size(); ++k) {
+    elastography::StiffnessMap slice;
+    slice.frameOfReferenceUid = map.frameOfReferenceUid;
+    slice.values_kPa.grid = stack;
+    slice.values_kPa.grid.size.z() = 1;
+    slice.values_kPa.grid.origin_lps_mm += map.unevenSlices_mm[k] * stack.direction.col(2);
+    try {
+      elastography::MappedRoi one = mapRoi(roi, mriGrid, slice);
+      std::ranges::copy(one.mask.values, all.mask.values.begin() + static_cast<std::ptrdiff_t>(
+                                                                       stack.linear(0, 0, static_cast<int>(k))));
+      all.coverage += one.coverage;
+      all.coincidentSlices += one.coincidentSlices;
+      all.sampledSlices += one.sampledSlices;
+      all.diagnostics.add(one.diagnostics);
+    } catch (const BadInput& e) {
+      why = e.what();
+    }
+  }
+  if (image::count(all.mask) == 0) throw BadInput(why);
+  all.coverage = std::min(1.0, all.coverage);
+  append(all.warnings, all.diagnostics.texts(Severity::Warning));
+  if (!roi.frameOfReferenceUid.empty() && !map.frameOfReferenceUid.empty() &&
+      roi.frameOfReferenceUid != map.frameOfReferenceUid)
+    all.warnings.push_back(
+        "the region of interest and the elastogram have different frames of reference; confirm that they fit");
+  return all;
+}
+
+}  // namespace
+
 elastography::MappedRoi mapRoi(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
                                const elastography::StiffnessMap& map) {
+  if (!map.unevenSlices_mm.empty()) return mapOnSlices(roi, mriGrid, map);
   if (roi.contours) {
     LoadedRoi complete;
     complete.contours = roi.contours;

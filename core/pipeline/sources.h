@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
 #include "base/diagnostic.h"
+#include "base/progress.h"
 #include "dicom/acquisitions.h"
 #include "dicom/origin.h"
 #include "dicom/series.h"
@@ -29,9 +29,9 @@ struct AnatomicalImage {
   std::string studyUid;
   std::vector<std::string> warnings;  ///< texts, those of diagnostics among them
   Diagnostics diagnostics;
-  std::vector<std::string> rolesNotFound;        ///< series named in roles that are not here
+  std::vector<std::string> rolesNotFound;         ///< series named in roles that are not here
   std::shared_ptr<const dicom::ScanResult> scan;  ///< of DICOM images
-  int series = -1;                               ///< taken, in scan
+  int series = -1;                                ///< taken, in scan
 };
 
 /// A DICOM folder, file, DICOMDIR or ZIP archive (the series that was outlined, else its anatomical series; where there
@@ -46,6 +46,7 @@ struct MapMeaning {
   dicom::RoleOverrides roles{};           ///< set by hand
   OutlineNames outlined{};                ///< what the region of interest was drawn on
   std::optional<double> confidenceScale{};  ///< stored value of full confidence; empty: by the map
+  bool mayBeUneven = false;  ///< for statistics alone: slices may lie unevenly (StiffnessMap::unevenSlices_mm)
 };
 
 struct LoadedStiffness {
@@ -126,6 +127,10 @@ Diagnostics doubtsAboutOutline(const LoadedRoi& roi, const AnatomicalImage* mri,
 
 /// Whether regions of several readers may be compared: the same rules, each with the first; overridden as above.
 std::vector<std::string> checkReaders(const std::vector<LoadedRoi>& rois, bool overridden);
+
+/// Adds to the region's diagnostics and warnings what is doubtful about its outlines on the image that they were drawn
+/// on (roi::outlineDoubts); nothing where it came as voxels.
+void checkOutlines(LoadedRoi& roi, const image::Grid& mriGrid);
 
 /// Fills empty slices between outlined ones by shape, where the region came as polygons (roi/interpolate.h). Returns
 /// what to tell the user, empty where every slice between the first and the last outlined one holds an outline that was

@@ -89,6 +89,11 @@ void exchange(Wire& w, ImageHeader& h) {
   w(h.step.time);
   w(h.step.frequency);
   w(h.step.vibration_Hz);
+  w(h.announced.images);
+  w(h.announced.slices);
+  w(h.announced.concatenationUid);
+  w(h.announced.part);
+  w(h.announced.parts);
   exchangeAll(w, h.frames);
   w(h.warnings);
 }
@@ -160,6 +165,7 @@ ImageHeader headerFrom(const std::string& message, std::uint64_t fileBytes) {
                             &h.description, &h.imageType, &h.manufacturer, &h.sequenceName,
                             &h.acquisitionUid})
     *text = shownFrom(std::move(*text));
+  h.announced.concatenationUid = shownFrom(std::move(h.announced.concatenationUid));
   for (std::vector<std::string>* texts : {&h.warnings, &h.references})
     for (std::string& text : *texts) text = shownFrom(std::move(text));
   for (Frame& f : h.frames) f.unit = shownFrom(std::move(f.unit));

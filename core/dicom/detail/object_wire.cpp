@@ -36,6 +36,7 @@ void exchange(Wire& w, StructureContour& c) {
   std::vector<double> xyz(c.points_lps_mm.data(), c.points_lps_mm.data() + c.points_lps_mm.size());
   w(xyz);
   w(c.referencedSopInstanceUid);
+  w(c.exclusiveOr);
   if constexpr (!Wire::writes) {
     if (xyz.size() % 3 != 0) WireReader::fail();
     c.points_lps_mm = Eigen::Map<const Eigen::Matrix3Xd>(xyz.data(), 3, static_cast<Eigen::Index>(xyz.size() / 3));
@@ -78,6 +79,7 @@ void exchange(Wire& w, SegHeader& h) {
   w(h.columns);
   w(h.bits);
   w(h.fractional);
+  w(h.labelMap);
   w(h.maximum);
   w(h.row);
   w(h.column);
@@ -165,7 +167,7 @@ SegHeader segHeaderFrom(const std::string& message) {
   }
   const auto isUnit = [](const Eigen::Vector3d& v) { return std::abs(v.norm() - 1.0) < 1e-3; };
   bool sound = h.rows > 0 && h.rows <= 65535 && h.columns > 0 && h.columns <= 65535;
-  sound = sound && (h.fractional ? h.bits == 8 : h.bits == 1) && h.maximum > 0 && h.maximum <= 255;
+  sound = sound && (h.labelMap ? h.bits == 8 || h.bits == 16 : h.bits == (h.fractional ? 8 : 1)) && h.maximum > 0 && h.maximum <= 255;
   sound = sound && isUnit(h.row) && isUnit(h.column) && std::abs(h.row.dot(h.column)) < 1e-6;
   sound = sound && h.rowSpacing_mm > 0.0 && h.columnSpacing_mm > 0.0 && !h.frames.empty();
   if (!sound) WireReader::fail();
