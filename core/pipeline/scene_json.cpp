@@ -102,6 +102,7 @@ Json toJson(const retraction::SupportSpec& s, const std::filesystem::path& folde
     j["kind"] = "spring";
     j["stiffness_kPa_per_mm"] = s.stiffness_kPa_per_mm;
     j["direction"] = s.normalOnly ? "normal" : "isotropic";
+    if (s.unilateral) j["unilateral"] = true;
     return j;
   }
   j["kind"] = "fixed";
@@ -122,7 +123,9 @@ struct LoadToJson {
     return {{"kind", "traction"}, {"region", std::visit(RegionToJson{folder}, l.region)}, {"kPa", toJson(l.kPa)}};
   }
   Json operator()(const retraction::Pressure& l) const {
-    return {{"kind", "pressure"}, {"region", std::visit(RegionToJson{folder}, l.region)}, {"kPa", l.kPa}};
+    Json j = {{"kind", "pressure"}, {"region", std::visit(RegionToJson{folder}, l.region)}, {"kPa", l.kPa}};
+    if (l.follows) j["follows"] = true;
+    return j;
   }
   Json operator()(const retraction::Retractor& l) const {
     Json j = {

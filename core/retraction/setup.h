@@ -47,6 +47,7 @@ struct SupportSpec {
   Eigen::Vector3d displacement_mm = Eigen::Vector3d::Zero();  ///< Fixed: held at this
   double stiffness_kPa_per_mm = 0.0;                          ///< Spring: Winkler foundation
   bool normalOnly = false;                                    ///< Spring: resists along the face normal only
+  bool unilateral = false;  ///< Spring: presses along the face normal, does not pull; large deformation only
 };
 
 struct BodyForce {
@@ -59,6 +60,7 @@ struct Traction {
 struct Pressure {
   Region region;
   double kPa;
+  bool follows = false;  ///< large deformation: stays normal to the deformed faces and grows with them
 };  ///< positive pushes against the outward normal
 /// How the bar meets the liver. Rigid: a body of its own that pushes and does not pull, without friction. Patch: its
 /// force spread over the surface at rest.

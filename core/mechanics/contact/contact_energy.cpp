@@ -29,9 +29,14 @@ double meanModulus(const VoxelBody& body) {
 
 ContactEnergy::ContactEnergy(const SolidHierarchy& hierarchy, std::vector<SurfaceSample> surface,
                              const ContactProblem& problem, const ContactOptions& options)
-    : hierarchy_(hierarchy), surface_(std::move(surface)), law_(problem.law), bar_(problem.bar) {
+    : hierarchy_(hierarchy),
+      surface_(std::move(surface)),
+      bed_(problem.bed),
+      pressures_(problem.pressures),
+      law_(problem.law), bar_(problem.bar) {
   barrier_.width_m = options.zone_m;
   barrier_.kappa_Pa_m = std::max(softest_Pa_m, 1e3 * meanModulus(problem.problem.body)) * 1e-3 / options.zone_m;
+  for (const FollowerFace& f : pressures_) middle_ += f.corner_m[0] / static_cast<double>(pressures_.size());
   if (bar_) barrier_.guard_m = 0.4 * bar_->radius_m;
   if (bar_) bringToTouch();
 }
@@ -84,12 +89,17 @@ bool ContactEnergy::evaluate(const State& at, std::optional<double> force_N, boo
       value.contact_N -= w * phi.first;
     }
   }
+  addBed(at, value);
+  double pressed = value.loads_N;
+  addPressures(at, value);
+  pressed = value.loads_N - pressed;
+  value.loads_N = 0;
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     value.potential -= loads_[i] * at.u[i];
     value.gradient[i] -= loads_[i];
     value.loads_N += level.active[i] > 0 ? loads_[i] * loads_[i] : 0;
   }
-  value.loads_N = std::sqrt(value.loads_N);
+  value.loads_N = std::sqrt(value.loads_N + pressed);
   for (std::size_t i = 0; i < 3 * n; ++i)
     if (!(level.active[i] > 0)) value.gradient[i] = 0;
   value.gradient[3 * n] = 0;
@@ -98,6 +108,60 @@ bool ContactEnergy::evaluate(const State& at, std::optional<double> force_N, boo
     value.gradient[3 * n] = value.barForce_N - *force_N;
   }
   return std::isfinite(value.potential);
+}
+
+void ContactEnergy::addBed(const State& at, Value& value) const {
+  const SolidLevel& level = hierarchy_.level(top_);
+  for (std::size_t b = 0; b < bed_.size(); ++b) {
+    const CarriedPoint& point = level.points[surface_.size() + b];
+    const double into = point.at(at.u.data(), level.nodes()).dot(bed_[b].outward);
+    if (into <= 0) continue;
+    value.potential += 0.5 * bed_[b].k_N_m * into * into;
+    point.add<double>(bed_[b].k_N_m * into * bed_[b].outward, value.gradient.data(), level.nodes());
+  }
+}
+
+template <class F>
+void ContactEnergy::forTriangles(const State& at, const F& f) const {
+  constexpr std::array<std::array<std::size_t, 3>, 4> triangles = {{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}}};
+  const SolidLevel& level = hierarchy_.level(top_);
+  for (std::size_t p = 0; p < pressures_.size(); ++p) {
+    const std::size_t first = surface_.size() + bed_.size() + 4 * p;
+    std::array<Eigen::Vector3d, 4> x;
+    for (std::size_t c = 0; c < 4; ++c)
+      x[c] = pressures_[p].corner_m[c] - middle_ + level.points[first + c].at(at.u.data(), level.nodes());
+    const double share = pressureShare_ * pressures_[p].pressure_Pa / 12;
+    for (const auto& t : triangles)
+      f(std::array<std::size_t, 3>{first + t[0], first + t[1], first + t[2]},
+        std::array<Eigen::Vector3d, 3>{x[t[0]], x[t[1]], x[t[2]]}, share);
+  }
+}
+
+/// Pressure times the volume behind the faces; its gradient is pressure times deformed area.
+void ContactEnergy::addPressures(const State& at, Value& value) const {
+  const SolidLevel& level = hierarchy_.level(top_);
+  forTriangles(at, [&](const auto& point, const auto& x, double share) {
+    value.potential += share * x[0].dot(x[1].cross(x[2]));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3d g = share * x[(i + 1) % 3].cross(x[(i + 2) % 3]);
+      level.points[point[i]].template add<double>(g, value.gradient.data(), level.nodes());
+    }
+    const double force = 6 * share * (x[1] - x[0]).cross(x[2] - x[0]).norm() / 2;
+    value.loads_N += force * force;
+  });
+}
+
+std::vector<FollowerStiffness> ContactEnergy::followers(const State& at) const {
+  std::vector<FollowerStiffness> out;
+  forTriangles(at, [&](const auto& point, const auto& x, double share) {
+    FollowerStiffness t;
+    for (std::size_t i = 0; i < 3; ++i) {
+      t.point[i] = static_cast<std::uint32_t>(point[i]);
+      t.scaled[i] = (share * x[i]).template cast<float>();
+    }
+    out.push_back(t);
+  });
+  return out;
 }
 
 bool ContactEnergy::passes(const State& from, const State& to) const {
@@ -122,6 +186,17 @@ bool ContactEnergy::passes(const State& from, const State& to) const {
 
 std::vector<PointStiffness> ContactEnergy::stiffness(const State& at) const {
   std::vector<PointStiffness> out;
+  const SolidLevel& level = hierarchy_.level(top_);
+  for (std::size_t b = 0; b < bed_.size(); ++b) {
+    const std::size_t point = surface_.size() + b;
+    // At rest the bed is there already: a body that only lies on it is held.
+    if (level.points[point].at(at.u.data(), level.nodes()).dot(bed_[b].outward) < 0) continue;
+    PointStiffness k;
+    k.point = static_cast<std::uint32_t>(point);
+    k.bar = false;
+    k.positive = k.exact = (bed_[b].k_N_m * bed_[b].outward * bed_[b].outward.transpose()).cast<float>();
+    out.push_back(k);
+  }
   if (!bar_) return out;
   for (std::size_t p = 0; p < surface_.size(); ++p) {
     const Gap gap = gapTo(*bar_, place(p, at), at.s);

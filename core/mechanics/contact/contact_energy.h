@@ -40,6 +40,9 @@ class ContactEnergy {
   /// True where no sample passes through the bar on the straight way from one state to the next.
   bool passes(const State& from, const State& to) const;
   std::vector<PointStiffness> stiffness(const State& at) const;
+  std::vector<FollowerStiffness> followers(const State& at) const;
+  /// Share of the follower pressures that acts; 1 at first.
+  void setPressureShare(double share) { pressureShare_ = share; }
 
   const RigidBar& bar() const { return *bar_; }
   bool hasBar() const { return bar_.has_value(); }
@@ -50,11 +53,20 @@ class ContactEnergy {
   Eigen::Vector3d place(std::size_t sample, const State& at) const;
 
  private:
+  void addBed(const State& at, Value& value) const;
+  void addPressures(const State& at, Value& value) const;
+  /// The four triangles of a face, half of each pair of diagonals.
+  template <class F>
+  void forTriangles(const State& at, const F& f) const;
   /// The bar is brought from behind to its first touch.
   void bringToTouch();
 
   const SolidHierarchy& hierarchy_;
   std::vector<SurfaceSample> surface_;
+  std::vector<BedSample> bed_;            ///< points behind those of the surface
+  std::vector<FollowerFace> pressures_;   ///< four points each behind those of the bed
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< places of follower faces are counted from here
+  double pressureShare_ = 1;
   SolidLaw law_;
   std::optional<RigidBar> bar_;
   Barrier barrier_;

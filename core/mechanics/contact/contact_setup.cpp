@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "mechanics/hyperelastic.h"
+#include "mechanics/measures.h"
 
 namespace glisson::mechanics {
 namespace {
@@ -91,6 +92,15 @@ std::vector<SurfaceSample> carriedSurface(SolidHierarchy& hierarchy, const Conta
     cells.push_back(*cell);
     places.push_back(problem.surface[p].p_m);
   }
+  const auto carried = [&](const Eigen::Vector3d& p_m) {
+    const auto cell = carrierCell(mesh, p_m);
+    if (!cell) throw BadArgument("a face or bed of the surface is nowhere near a cell");
+    cells.push_back(*cell);
+    places.push_back(p_m);
+  };
+  for (const BedSample& b : problem.bed) carried(b.p_m);
+  for (const FollowerFace& f : problem.pressures)
+    for (const Eigen::Vector3d& corner : f.corner_m) carried(corner);
   hierarchy.setPoints(cells, places);
   return surface;
 }
@@ -184,6 +194,12 @@ void describe(const SolidHierarchy& hierarchy, const ContactEnergy& energy, cons
       solution.reaction_N(axis, node) = force[c * n + slot] - load;
     }
   }
+  for (const BedSample& b : problem.bed)
+    if (const auto cell = carrierCell(mesh, b.p_m)) {
+      const Eigen::Vector3d u = displacementAt(mesh, solution.u_m, b.p_m).value_or(Eigen::Vector3d::Zero());
+      const int node = mesh.nodeAt(cell->x(), cell->y(), cell->z());
+      solution.reaction_N.col(node) -= b.k_N_m * std::max(0.0, u.dot(b.outward)) * b.outward;
+    }
   for (const Spring& s : problem.problem.supports.springs)
     solution.reaction_N.col(s.node) -= s.k_N_m * solution.u_m.col(s.node);
 }

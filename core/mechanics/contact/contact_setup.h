@@ -13,7 +13,8 @@ std::optional<Eigen::Vector3i> carrierCell(const VoxelMesh& mesh, const Eigen::V
 /// The body's own cells as a level: moduli, clamps and springs.
 SolidLevel finestLevel(const ContactProblem& problem);
 
-/// The samples that a filled cell within three cells can carry, set on all levels of the hierarchy. kept: their indices
+/// The samples that a filled cell within three cells can carry, set on all levels of the hierarchy, and behind them the
+/// points of the bed and the corners of the follower faces. kept: their indices
 /// in problem.surface.
 std::vector<SurfaceSample> carriedSurface(SolidHierarchy& hierarchy, const ContactProblem& problem,
                                           std::vector<std::size_t>& kept);

@@ -188,6 +188,7 @@ bool Solver::loadInSteps(State& state) {
     std::vector<double> part = whole;
     for (double& f : part) f *= target;
     energy.setLoads(0, part);
+    energy.setPressureShare(target);
     State trial = state;
     const NewtonRun run = converge(trial, {}, target < 1 ? std::max(1e-3, options.tolerance) : options.tolerance, 60);
     out.solution.report.residual = run.residual;
@@ -203,13 +204,23 @@ bool Solver::loadInSteps(State& state) {
   return true;
 }
 
+/// A bed holds a body that lies on it, for the question whether anything holds it.
+void requireHeld(const ContactProblem& problem) {
+  const VoxelMesh mesh(problem.problem.body);
+  Supports supports = problem.problem.supports;
+  for (const BedSample& b : problem.bed)
+    if (const auto cell = carrierCell(mesh, b.p_m))
+      supports.springs.push_back({mesh.nodeAt(cell->x(), cell->y(), cell->z()), b.k_N_m * Eigen::Matrix3d::Identity()});
+  requireSupported(mesh, supports);
+}
+
 }  // namespace
 
 ContactSolution solveContact(const ContactProblem& problem, const ContactOptions& options, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   if (problem.bar && problem.force_N.has_value() == problem.travel_m.has_value())
     throw BadArgument("solveContact: give either the force or the travel of the bar");
-  requireSupported(VoxelMesh(problem.problem.body), problem.problem.supports);
+  requireHeld(problem);
   Solver solver(problem, options, progress);
   State state;
   solver.useLevel(solver.pathLevel());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,19 @@ struct SurfaceSample {
   double area_m2 = 0;
 };
 
+/// A face under a pressure that follows it: corners in turn, anticlockwise seen from outside, at rest (grid axes, m).
+struct FollowerFace {
+  std::array<Eigen::Vector3d, 4> corner_m;
+  double pressure_Pa = 0;  ///< positive pushes against the outward normal
+};
+
+/// A place of the surface on a bed that presses and does not pull: force −k max(0, u·outward) outward.
+struct BedSample {
+  Eigen::Vector3d p_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d outward = Eigen::Vector3d::Zero();
+  double k_N_m = 0;
+};
+
 /// A body under large deformation, and the rigid bar that is moved against it.
 struct ContactProblem {
   Problem problem;  ///< E of a cell that the surface cuts: modulus times covered fraction; f_N: dead loads
@@ -25,6 +39,8 @@ struct ContactProblem {
   std::vector<SurfaceSample> surface;
   std::vector<double> skin_Pa;  ///< per cell, x fastest: further Young's modulus of the surface's cells, or empty
   double skinPoisson = 0.3;
+  std::vector<FollowerFace> pressures;  ///< together a closed surface, or one whose rim does not move
+  std::vector<BedSample> bed;
   std::optional<RigidBar> bar;       ///< from anywhere behind its first touch; travel counts from there
   std::optional<double> force_N;     ///< on the bar along its hoist; or
   std::optional<double> travel_m;    ///< of the bar

@@ -87,6 +87,7 @@ NewtonRun minimise(SolidHierarchy& hierarchy, const ContactEnergy& energy, Conta
       return run;
     }
     if (run.iterations == goal.limit) return run;
+    hierarchy.setFollowers(energy.followers(state));
     if (!hierarchy.linearise(energy.top(), energy.law(), state.u.data(), energy.stiffness(state), m.travels, hoist))
       return run;
     if (m.direction(false, run) && m.search(state)) continue;

@@ -60,6 +60,7 @@ void SolidHierarchy::setPoints(const std::vector<Eigen::Vector3i>& cells, const 
 
 bool SolidHierarchy::linearise(std::size_t top, SolidLaw law, const double* u,
                                const std::vector<PointStiffness>& contact, bool travels, const Eigen::Vector3d& hoist) {
+  levels_[top].followers = followers_;
   levels_[top].linearise(law, u, contact, travels, hoist);
   std::vector<double> at(u, u + 3 * levels_[top].nodes());
   for (std::size_t l = top; l + 1 < levels_.size(); ++l) {

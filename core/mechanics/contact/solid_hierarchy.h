@@ -28,6 +28,8 @@ class SolidHierarchy {
   const SolidLevel& level(std::size_t l) const { return levels_[l]; }
   std::size_t levels() const { return levels_.size(); }
 
+  /// Follower pressures of the next linearise(), in the exact tangent of its top level only.
+  void setFollowers(std::vector<FollowerStiffness> followers) { followers_ = std::move(followers); }
   /// Points of the surface on all levels: cell of the finest level and place (m).
   void setPoints(const std::vector<Eigen::Vector3i>& cells, const std::vector<Eigen::Vector3d>& places_m);
 
@@ -50,6 +52,7 @@ class SolidHierarchy {
   std::vector<SolidLevel> levels_;
   Eigen::LLT<Eigen::MatrixXd> coarsest_;
   std::vector<std::size_t> coarsestDofs_;
+  std::vector<FollowerStiffness> followers_;
 };
 
 }  // namespace glisson::mechanics

@@ -1,5 +1,6 @@
 #include "mechanics/contact/solid_level.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -248,6 +249,14 @@ void SolidLevel::applyPoints(const T* in, T* out, bool positive) const {
     if (c.bar) travel -= hoist_.cast<T>().dot(f);
   }
   out[3 * n] = travels_ ? travel : T{0};
+  if (positive) return;
+  for (const FollowerStiffness& t : followers)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      const Eigen::Matrix<T, 3, 1> vj = points[t.point[j]].at(in, n), vk = points[t.point[k]].at(in, n);
+      points[t.point[i]].add<T>(vj.cross(t.scaled[k].template cast<T>()) + t.scaled[j].template cast<T>().cross(vk),
+                                out, n);
+    }
 }
 
 void SolidLevel::apply(const float* in, float* out, bool positive) const {

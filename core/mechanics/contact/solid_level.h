@@ -51,6 +51,12 @@ struct PointStiffness {
   Eigen::Matrix3f positive = Eigen::Matrix3f::Zero();
 };
 
+/// A triangle under a pressure that follows it, in the exact tangent: δf_a = δx_b × c + b × δx_c and so on in turn.
+struct FollowerStiffness {
+  std::array<std::uint32_t, 3> point{};
+  std::array<Eigen::Vector3f, 3> scaled{};  ///< places times pressure over 12, N/m
+};
+
 /// Lamé's constants of cells, x fastest, Pa times the filled fraction; 0 = empty.
 struct CellModuli {
   Eigen::Vector3i cells = Eigen::Vector3i::Zero();
@@ -102,6 +108,7 @@ class SolidLevel {
   std::vector<std::size_t> fixed;           ///< positions in a field
   std::vector<SlotSpring> springs;          ///< at most one per slot
   std::vector<CarriedPoint> points;         ///< all surface points, as this level's cells carry them
+  std::vector<FollowerStiffness> followers;  ///< of the present linearisation, where this level is the finest
   std::vector<char> there;                  ///< per node slot: a filled cell touches it
   std::vector<float> active;                ///< 3 × nodes: 1 where a node is there and free, else 0
   std::vector<float> x, r, d, y;            ///< work of a cycle

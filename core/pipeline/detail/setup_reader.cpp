@@ -120,6 +120,7 @@ retraction::SupportSpec readSupport(JsonObject o, const std::filesystem::path& f
     s.kind = retraction::SupportSpec::Kind::Spring;
     s.stiffness_kPa_per_mm = o.number("stiffness_kPa_per_mm");
     if (s.stiffness_kPa_per_mm < 0) o.fail("stiffness_kPa_per_mm", "must not be negative");
+    s.unilateral = o.boolean("unilateral", false);
     s.normalOnly = o.word("direction", {"isotropic", "normal"}, "isotropic") == "normal";
   }
   o.finish();
@@ -132,9 +133,11 @@ retraction::LoadSpec readLoad(JsonObject o, const std::filesystem::path& folder)
   if (kind == "body_force") {
     load = retraction::BodyForce{o.vector3("N_per_m3")};
   } else if (kind == "traction") {
+    if (o.boolean("follows", false))
+      o.fail("follows", "is offered for pressures; a traction keeps its direction: leave it out");
     load = retraction::Traction{readRegion(o.object("region"), folder), o.vector3("kPa")};
   } else if (kind == "pressure") {
-    load = retraction::Pressure{readRegion(o.object("region"), folder), o.number("kPa")};
+    load = retraction::Pressure{readRegion(o.object("region"), folder), o.number("kPa"), o.boolean("follows", false)};
   } else {
     retraction::Retractor r;
     using retraction::Retractor;

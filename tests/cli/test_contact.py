@@ -1,0 +1,102 @@
+"""The retractor as a rigid bar, through the command line: figures, slip, drives, and what is withheld."""
+import math
+import pathlib
+import tempfile
+import unittest
+
+from support import cli, cli_json, write_scene
+
+BAR = {"kind": "retractor", "at": [80, 60, 50], "force": 4.6}
+BLOCK = {"geometry": {"kind": "box", "size_mm": [160, 60, 100], "cell_mm": 4},
+         "material": {"youngs_kPa": 6.09, "poisson": 0.45},
+         "supports": [{"region": {"face": "y-"}, "kind": "fixed"}],
+         "loads": [BAR],
+         "outputs": [{"probe": [[80, 60, 50], [80, 40, 50], [80, 20, 50]]}]}
+#: A shelf 10 mm thick that gives way under the bar until it slides off.
+SHELF = {"geometry": {"kind": "box", "size_mm": [60, 10, 40], "cell_mm": 2.5},
+         "material": {"youngs_kPa": 10, "poisson": 0.4},
+         "supports": [{"region": {"face": "x-"}, "kind": "fixed"}],
+         "loads": [{"kind": "retractor", "at": [52, 10, 20], "axis": [0, 0, 1], "length_mm": 60, "force": 20}]}
+
+
+class Contact(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self._folder.name)
+        self.addCleanup(self._folder.cleanup)
+
+    def run_scene(self, scene, *arguments, code=0):
+        return cli_json("run", write_scene(self.folder, scene), "--output", self.folder / "out", *arguments, code=code)
+
+    def test_a_rigid_bar_is_the_default_and_dents_a_block_as_calculix_says(self):
+        r = self.run_scene(BLOCK)
+        self.assertEqual(r["kinematics"]["asked"], "auto")
+        self.assertEqual(r["kinematics"]["used"], "hyperelastic")
+        for probe, expected in zip(r["probes"], (11.7, 5.27, 1.78)):
+            self.assertAlmostEqual(-probe["u_mm"][1], expected, delta=0.06 * expected)
+        contact = r["contact"]
+        self.assertAlmostEqual(contact["force_N"][1], -4.6, delta=1e-4)
+        self.assertFalse(contact["slipped"])
+        self.assertIsNone(contact["capacity_N"])
+        self.assertGreater(contact["travel_mm"], 10)
+        self.assertLess(contact["penetration_max_mm"], 0.5)
+        self.assertLess(contact["footprint_mm2"], contact["area_mm2"])
+        self.assertLess(math.hypot(*contact["moment_Nm"]), 2e-3)
+        self.assertAlmostEqual(r["reaction_N"][1], 4.6, delta=1e-3)
+        self.assertTrue(r["kinematics_valid"])
+
+    def test_travel_gives_the_force_and_the_other_way_round(self):
+        by_force = self.run_scene({**BLOCK, "loads": [{**BAR, "force": 2.0}]})
+        travel = by_force["contact"]["travel_mm"]
+        drive = {k: v for k, v in BAR.items() if k != "force"}
+        by_travel = self.run_scene({**BLOCK, "loads": [{**drive, "drive": {"travel_mm": travel}}]})
+        self.assertAlmostEqual(by_travel["contact"]["force_N"][1], -2.0, delta=1e-3)
+
+    def test_two_stiffnesses_under_one_bar_and_what_is_said_of_their_difference(self):
+        r = self.run_scene({**BLOCK, "compare": {"against": "atlas", "youngs_kPa": 9.0}})
+        d = r["difference"]
+        self.assertAlmostEqual(d["travel_mm"], r["contact"]["travel_mm"] - r["atlas"]["contact"]["travel_mm"], places=9)
+        self.assertGreater(d["travel_mm"], 0)  # the softer of the two gives way further
+        # The tissue that the bar holds goes with it, so at the bar the difference is about that of the travel.
+        self.assertAlmostEqual(d["at_retractor_mm"], d["travel_mm"], delta=0.2 * d["travel_mm"])
+        self.assertLess(d["mean_mm"], d["at_retractor_mm"])
+        self.assertGreater(d["equal_lift"]["atlas_force_N"], d["equal_lift"]["force_N"])
+        self.assertIn("window_at_rest_mm", d)
+        self.assertIn("contact_mean_mm", d)
+
+    def test_what_a_place_does_not_bear_is_said_and_nothing_is_compared(self):
+        r = self.run_scene({**SHELF, "compare": {"against": "atlas", "youngs_kPa": 12.0}}, code=4)
+        self.assertTrue(r["contact"]["slipped"])
+        self.assertGreater(r["contact"]["capacity_N"], 0)
+        self.assertLess(r["contact"]["capacity_N"], 20)
+        self.assertIsNone(r["difference"])
+        codes = {d["code"] for d in r["diagnostics"]}
+        self.assertTrue({"retractor-slips", "difference-withheld"} <= codes, codes)
+        for d in r["diagnostics"]:
+            self.assertEqual(set(d), {"code", "severity", "text", "arguments"})
+            if d["severity"] != "note":
+                self.assertIn(d["text"], r["warnings"])
+
+    def test_a_patch_is_still_there_where_it_is_asked_for_or_alone_is_offered(self):
+        patch = self.run_scene({**BLOCK, "loads": [{**BAR, "contact": "patch"}], "kinematics": "linear"})
+        self.assertNotIn("contact", patch)
+        self.assertGreater(patch["contact_area_mm2"], 0)
+        frames = self.run_scene({**BLOCK, "geometry": {**BLOCK["geometry"], "cell_mm": 10},
+                                 "model": {"kind": "meshfree", "frames": 40}})
+        self.assertNotIn("contact", frames)
+        process = cli("run", write_scene(self.folder, {**BLOCK, "loads": [{**BAR, "contact": "rigid"}],
+                                                       "model": {"kind": "meshfree", "frames": 40}}),
+                      "--output", self.folder / "out", "--quiet", code=3)
+        self.assertIn("fem-hex", process.stderr)
+
+    def test_contradictions_are_refused(self):
+        drive = {"drive": {"travel_mm": 5}}
+        for load in ({**BAR, **drive},
+                     {"kind": "retractor", "at": [80, 60, 50], "contact": "patch", **drive},
+                     {**BAR, "at": [80, 60, 400]}):
+            cli("run", write_scene(self.folder, {**BLOCK, "loads": [load]}), "--output", self.folder / "out", "--quiet",
+                code=3)
+
+
+if __name__ == "__main__":
+    unittest.main()
