@@ -74,7 +74,8 @@ Json patientsOf(const dicom::ScanResult& found) {
   std::vector<std::pair<std::string, std::vector<std::pair<std::string, Json>>>> patients;
   for (std::size_t i = 0; i < found.series.size(); ++i) {
     const dicom::Series& s = found.series[i];
-    auto patient = std::find_if(patients.begin(), patients.end(), [&](const auto& p) { return p.first == s.patientKey; });
+    auto patient =
+        std::find_if(patients.begin(), patients.end(), [&](const auto& p) { return p.first == s.patientKey; });
     if (patient == patients.end()) patient = patients.insert(patients.end(), {s.patientKey, {}});
     auto& studies = patient->second;
     auto study = std::find_if(studies.begin(), studies.end(), [&](const auto& t) { return t.first == s.studyUid; });

@@ -85,8 +85,7 @@ SegmentationSet assembled(SegHeader h, std::uint64_t fileBytes,
                    std::to_string(grid.voxelCount()) + " voxels, which do not fit the memory budget");
   for (Segment& s : set.segments) s.mask = image::Mask(grid);
   for (const SegFrame& f : h.frames)
-    if (!f.sourceSopInstanceUid.empty())
-      set.frames.push_back({f.segment, f.position_lps_mm, f.sourceSopInstanceUid});
+    if (!f.sourceSopInstanceUid.empty()) set.frames.push_back({f.segment, f.position_lps_mm, f.sourceSopInstanceUid});
   for (std::size_t n = 0; n < h.frames.size(); ++n) {
     const auto segment = std::find_if(set.segments.begin(), set.segments.end(),
                                       [&](const Segment& s) { return s.number == h.frames[n].segment; });

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
 #include "base/diagnostic.h"
+#include "base/progress.h"
 #include "dicom/acquisitions.h"
 #include "dicom/origin.h"
 #include "dicom/series.h"
@@ -29,9 +29,9 @@ struct AnatomicalImage {
   std::string studyUid;
   std::vector<std::string> warnings;  ///< texts, those of diagnostics among them
   Diagnostics diagnostics;
-  std::vector<std::string> rolesNotFound;        ///< series named in roles that are not here
+  std::vector<std::string> rolesNotFound;         ///< series named in roles that are not here
   std::shared_ptr<const dicom::ScanResult> scan;  ///< of DICOM images
-  int series = -1;                               ///< taken, in scan
+  int series = -1;                                ///< taken, in scan
 };
 
 /// A DICOM folder, file, DICOMDIR or ZIP archive (the series that was outlined, else its anatomical series; where there
@@ -43,8 +43,8 @@ AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& pro
 struct MapMeaning {
   std::optional<StiffnessQuantity> quantity;
   std::optional<std::string> unit;
-  dicom::RoleOverrides roles{};           ///< set by hand
-  OutlineNames outlined{};                ///< what the region of interest was drawn on
+  dicom::RoleOverrides roles{};             ///< set by hand
+  OutlineNames outlined{};                  ///< what the region of interest was drawn on
   std::optional<double> confidenceScale{};  ///< stored value of full confidence; empty: by the map
 };
 
@@ -55,9 +55,9 @@ struct LoadedStiffness {
   std::string studyUid;
   std::vector<std::string> warnings;  ///< texts, those of diagnostics among them
   Diagnostics diagnostics;
-  std::vector<std::string> rolesNotFound;        ///< as in AnatomicalImage
+  std::vector<std::string> rolesNotFound;         ///< as in AnatomicalImage
   std::shared_ptr<const dicom::ScanResult> scan;  ///< of DICOM images
-  dicom::Acquisition acquisition;                ///< what was taken, in scan
+  dicom::Acquisition acquisition;                 ///< what was taken, in scan
 };
 
 /// The map of a stiffness series in kPa: in the unit and of the quantity that are asked for, else that its code, its
