@@ -143,10 +143,10 @@ int scan(const Arguments& a, const Context& context) {
     if (s.error) warnings.push_back("series " + std::to_string(s.number) + " cannot be used as a volume: " + *s.error);
   }
   j["acquisitions"] = Json::array();
-  for (const dicom::Acquisition& a : dicom::acquisitions(found)) {
-    j["acquisitions"].push_back(toJson(a, found));
-    all.add(a.diagnostics);
-    for (const std::string& w : a.diagnostics.texts(Severity::Warning)) text << "warning: " << w << "\n";
+  for (const dicom::Acquisition& one : dicom::acquisitions(found)) {
+    j["acquisitions"].push_back(toJson(one, found));
+    all.add(one.diagnostics);
+    for (const std::string& w : one.diagnostics.texts(Severity::Warning)) text << "warning: " << w << "\n";
   }
   j["patients"] = patientsOf(found);
   j["diagnostics"] = diagnosticsJson(all, warnings);
