@@ -213,7 +213,9 @@ void addMeasure(CLI::App& app, Context& context) {
   verb->add_option("--role", a->roles, "series=role, set by hand: UID or number, and stiffness, confidence ...");
   verb->add_flag("--override", a->overrideChecks,
                  "take MRI, elastogram and region of other days or patients nevertheless");
-  verb->add_option("--label", a->label, "label of a mask, 0 = any; must be given where there are several; or number of a structure or segment");
+  verb->add_option(
+      "--label", a->label,
+      "label of a mask, 0 = any; must be given where there are several; or number of a structure or segment");
   verb->add_option("--name", a->name, "structure of an RT Structure Set, or its number as #2");
   verb->add_option("--confidence", a->confidence, "voxels below are left out, 0 to 1")->check(CLI::Range(0.0, 1.0));
   verb->add_option("--confidence-scale", a->confidenceScale,

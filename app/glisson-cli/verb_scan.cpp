@@ -74,7 +74,8 @@ Json patientsOf(const dicom::ScanResult& found) {
   std::vector<std::pair<std::string, std::vector<std::pair<std::string, Json>>>> patients;
   for (std::size_t i = 0; i < found.series.size(); ++i) {
     const dicom::Series& s = found.series[i];
-    auto patient = std::find_if(patients.begin(), patients.end(), [&](const auto& p) { return p.first == s.patientKey; });
+    auto patient =
+        std::find_if(patients.begin(), patients.end(), [&](const auto& p) { return p.first == s.patientKey; });
     if (patient == patients.end()) patient = patients.insert(patients.end(), {s.patientKey, {}});
     auto& studies = patient->second;
     auto study = std::find_if(studies.begin(), studies.end(), [&](const auto& t) { return t.first == s.studyUid; });
@@ -142,10 +143,10 @@ int scan(const Arguments& a, const Context& context) {
     if (s.error) warnings.push_back("series " + std::to_string(s.number) + " cannot be used as a volume: " + *s.error);
   }
   j["acquisitions"] = Json::array();
-  for (const dicom::Acquisition& a : dicom::acquisitions(found)) {
-    j["acquisitions"].push_back(toJson(a, found));
-    all.add(a.diagnostics);
-    for (const std::string& w : a.diagnostics.texts(Severity::Warning)) text << "warning: " << w << "\n";
+  for (const dicom::Acquisition& one : dicom::acquisitions(found)) {
+    j["acquisitions"].push_back(toJson(one, found));
+    all.add(one.diagnostics);
+    for (const std::string& w : one.diagnostics.texts(Severity::Warning)) text << "warning: " << w << "\n";
   }
   j["patients"] = patientsOf(found);
   j["diagnostics"] = diagnosticsJson(all, warnings);

@@ -1,181 +1,20 @@
 #include "dicom/acquisitions.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <set>
 
 #include "base/error.h"
-#include "base/text.h"
+#include "dicom/detail/evidence.h"
 #include "dicom/roles.h"
 
 namespace glisson::dicom {
 namespace {
 
-/// Whether two series come from one acquisition, as far as one sort of evidence tells.
-enum class Verdict { Other, Unknown, Same };
-
-/// Sorts of evidence, strongest first.
-enum class Tie { Series, References, Uid, SeriesNumbers, Number, Frame, Time, Geometry, Order };
-constexpr Tie ties[] = {Tie::Series, Tie::References, Tie::Uid,  Tie::SeriesNumbers, Tie::Number,
-                        Tie::Frame,  Tie::Time,       Tie::Geometry, Tie::Order};
-
-bool strong(Tie tie) {
-  return tie <= Tie::SeriesNumbers;
-}
-
-std::string words(Tie tie) {
-  switch (tie) {
-    case Tie::Series:
-      return "one series";
-    case Tie::References:
-      return "references of the images";
-    case Tie::Uid:
-      return "acquisition UID";
-    case Tie::SeriesNumbers:
-      return "series numbers";
-    case Tie::Number:
-      return "acquisition number";
-    case Tie::Frame:
-      return "frame of reference";
-    case Tie::Time:
-      return "acquisition time";
-    case Tie::Geometry:
-      return "geometry";
-    default:
-      return "order of series numbers";
-  }
-}
-
-std::string stem(const Series& s) {
-  return s.uid.substr(0, s.uid.find('#'));
-}
-
-bool ofElastography(SeriesRole role) {
-  return role == SeriesRole::Magnitude || role == SeriesRole::Wave || role == SeriesRole::Stiffness ||
-         role == SeriesRole::Confidence || role == SeriesRole::Phase;
-}
-
-/// Of two that both say something.
-Verdict compared(const std::string& a, const std::string& b) {
-  if (a.empty() || b.empty()) return Verdict::Unknown;
-  return a == b ? Verdict::Same : Verdict::Other;
-}
-
-template <typename Value>
-Verdict compared(const std::optional<Value>& a, const std::optional<Value>& b) {
-  if (!a || !b) return Verdict::Unknown;
-  return *a == *b ? Verdict::Same : Verdict::Other;
-}
-
-class Evidence {
- public:
-  explicit Evidence(const ScanResult& scan) : scan_(scan), run_(scan.series.size(), -1), leads_(scan.series.size()) {
-    orderRuns();
-    resolveReferences();
-  }
-
-  const Series& series(int i) const { return scan_.series[static_cast<std::size_t>(i)]; }
-  int size() const { return static_cast<int>(scan_.series.size()); }
-
-  bool together(int a, int b) const {
-    const Series &x = series(a), &y = series(b);
-    return compared(x.patientKey, y.patientKey) != Verdict::Other && compared(x.studyUid, y.studyUid) != Verdict::Other;
-  }
-
-  Verdict judge(Tie tie, int a, int b) const {
-    const Series &x = series(a), &y = series(b);
-    switch (tie) {
-      case Tie::Series:
-        return stem(x) == stem(y) && compared(x.acquired.number, y.acquired.number) != Verdict::Other
-                   ? Verdict::Same
-                   : Verdict::Unknown;
-      case Tie::References:
-        return byReferences(a, b);
-      case Tie::Uid:
-        return compared(x.acquired.uid, y.acquired.uid);
-      case Tie::SeriesNumbers:
-        return bySeriesNumbers(x, y);
-      case Tie::Number:
-        return compared(x.acquired.number, y.acquired.number);
-      case Tie::Frame:
-        return compared(x.frameOfReferenceUid, y.frameOfReferenceUid);
-      case Tie::Time:
-        if (!x.acquired.time_s || !y.acquired.time_s) return Verdict::Unknown;
-        return apart_s(a, b) < 1.0 ? Verdict::Same : Verdict::Other;
-      case Tie::Geometry:
-        return x.grid.sameGeometry(y.grid) ? Verdict::Same : Verdict::Other;
-      default:
-        return run(a) == run(b) ? Verdict::Same : Verdict::Other;
-    }
-  }
-
-  double apart_s(int a, int b) const { return std::abs(*series(a).acquired.time_s - *series(b).acquired.time_s); }
-
- private:
-  int run(int i) const { return run_[static_cast<std::size_t>(i)]; }
-
-  /// Products follow each other in order of series numbers; a run ends where one comes again.
-  void orderRuns() {
-    std::vector<int> order;
-    for (int i = 0; i < size(); ++i)
-      if (ofElastography(series(i).role)) order.push_back(i);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return series(a).number < series(b).number; });
-    int current = 0;
-    std::map<SeriesRole, std::string> seen;
-    for (const int i : order) {
-      const Series& s = series(i);
-      const auto known = seen.find(s.role);
-      if (known != seen.end() && known->second != stem(s) && !s.masked && s.role != SeriesRole::Phase) {
-        ++current;
-        seen.clear();
-      }
-      if (!s.masked) seen.emplace(s.role, stem(s));
-      run_[static_cast<std::size_t>(i)] = current;
-    }
-  }
-
-  /// Which other series of elastography each one names.
-  void resolveReferences() {
-    std::map<std::string, int> byUid;
-    const auto any = [](const Series& s) { return ofElastography(s.role) && !s.acquired.references.empty(); };
-    if (std::none_of(scan_.series.begin(), scan_.series.end(), any)) return;
-    for (int i = 0; i < size(); ++i) {
-      if (!ofElastography(series(i).role)) continue;
-      byUid.emplace(stem(series(i)), i);
-      for (const std::string& uid : series(i).sopInstanceUids) byUid.emplace(uid, i);
-    }
-    for (int i = 0; i < size(); ++i)
-      for (const std::string& uid : series(i).acquired.references)
-        if (const auto found = byUid.find(uid); found != byUid.end() && stem(series(found->second)) != stem(series(i)))
-          leads_[static_cast<std::size_t>(i)].insert(stem(series(found->second)));
-  }
-
-  Verdict byReferences(int a, int b) const {
-    const auto &x = leads_[static_cast<std::size_t>(a)], &y = leads_[static_cast<std::size_t>(b)];
-    if (x.count(stem(series(b))) > 0 || y.count(stem(series(a))) > 0) return Verdict::Same;
-    if (x.empty() || y.empty()) return Verdict::Unknown;
-    return std::any_of(x.begin(), x.end(), [&](const std::string& uid) { return y.count(uid) > 0; }) ? Verdict::Same
-                                                                                                   : Verdict::Other;
-  }
-
-  /// GE and Philips number the products of acquisition N from 100 N on; other makers may.
-  static Verdict bySeriesNumbers(const Series& x, const Series& y) {
-    const std::string maker = lowerCase(x.acquired.manufacturer) + lowerCase(y.acquired.manufacturer);
-    if (maker.find("siemens") != std::string::npos || x.number <= 0 || y.number <= 0) return Verdict::Unknown;
-    if (x.number < 100 && y.number < 100) return x.number == y.number ? Verdict::Same : Verdict::Unknown;
-    const auto acquisition = [](int number) { return number >= 100 ? number / 100 : number; };
-    if (acquisition(x.number) == acquisition(y.number)) return Verdict::Same;
-    const bool numbered = maker.find("ge medical") != std::string::npos ||
-                          maker.find("philips") != std::string::npos ||
-                          lowerCase(x.acquired.sequenceName).find("mre") != std::string::npos;
-    return numbered ? Verdict::Other : Verdict::Unknown;
-  }
-
-  const ScanResult& scan_;
-  std::vector<int> run_;
-  std::vector<std::set<std::string>> leads_;
-};
+using detail::Evidence;
+using detail::stem;
+using detail::Tie;
+using detail::ties;
+using detail::Verdict;
 
 /// Those of the candidates that fit best; last: the evidence that told them from the others, where some were.
 struct Chosen {
@@ -211,13 +50,13 @@ Chosen bestFor(const Evidence& e, int one, std::vector<int> candidates, bool byO
 std::string tiesOf(const Evidence& e, int a, int b) {
   std::string all;
   for (const Tie tie : ties)
-    if (tie != Tie::Order && e.judge(tie, a, b) == Verdict::Same) all += (all.empty() ? "" : ", ") + words(tie);
+    if (tie != Tie::Order && e.judge(tie, a, b) == Verdict::Same) all += (all.empty() ? "" : ", ") + detail::words(tie);
   return all.empty() ? "nothing else fits" : all;
 }
 
 std::optional<Tie> firstAgainst(const Evidence& e, int a, int b) {
   for (const Tie tie : ties)
-    if (strong(tie) && e.judge(tie, a, b) != Verdict::Unknown)
+    if (detail::strong(tie) && e.judge(tie, a, b) != Verdict::Unknown)
       return e.judge(tie, a, b) == Verdict::Other ? std::optional(tie) : std::nullopt;
   return std::nullopt;
 }
@@ -231,9 +70,9 @@ bool sameAcquisition(const Evidence& e, int a, int b) {
   if (!e.together(a, b)) return false;
   bool same = e.series(a).masked != e.series(b).masked;
   for (const Tie tie : ties) {
-    if (!strong(tie) && tie != Tie::Number && tie != Tie::Frame) continue;
+    if (!detail::strong(tie) && tie != Tie::Number && tie != Tie::Frame) continue;
     if (e.judge(tie, a, b) == Verdict::Other) return false;
-    same = same || (strong(tie) && e.judge(tie, a, b) == Verdict::Same);
+    same = same || (detail::strong(tie) && e.judge(tie, a, b) == Verdict::Same);
   }
   return same;
 }
@@ -292,18 +131,16 @@ class Partners {
     const int nearest = bestFor(e_, stiffness_, all).fit.front();
     const auto against = firstAgainst(e_, stiffness_, nearest);
     const std::vector<int> own = bestFor(e_, nearest, anchorsWith(nearest)).fit;
-    const std::string tie = against ? words(*against) : tiesOf(e_, nearest, own.front());
-    said.add(DiagnosticCode::PartnerElsewhere, {{"role", what},
-                                                {"series", numberOf(e_, nearest)},
-                                                {"stiffness", numberOf(e_, stiffness_)},
-                                                {"tie", tie}});
+    const std::string tie = against ? detail::words(*against) : tiesOf(e_, nearest, own.front());
+    said.add(
+        DiagnosticCode::PartnerElsewhere,
+        {{"role", what}, {"series", numberOf(e_, nearest)}, {"stiffness", numberOf(e_, stiffness_)}, {"tie", tie}});
   }
 
   void ambiguous(const std::vector<int>& fit, const std::string& what, Diagnostics& said) const {
     std::string all;
     for (const int i : fit) all += (all.empty() ? "" : ", ") + std::to_string(e_.series(i).number);
-    said.add(DiagnosticCode::PartnerAmbiguous,
-             {{"role", what}, {"all", all}, {"stiffness", numberOf(e_, stiffness_)}});
+    said.add(DiagnosticCode::PartnerAmbiguous, {{"role", what}, {"all", all}, {"stiffness", numberOf(e_, stiffness_)}});
   }
 
   void tellAbout(int taken, const std::vector<int>& all, const Chosen& chosen, const std::string& what,
@@ -314,26 +151,25 @@ class Partners {
       arguments.insert(arguments.end(), more.begin(), more.end());
       return arguments;
     };
-    const bool several = std::any_of(anchors_.begin(), anchors_.end(), [&](int a) {
-      return a != stiffness_ && !sameAcquisition(e_, a, stiffness_);
-    });
+    const bool several = std::any_of(anchors_.begin(), anchors_.end(),
+                                     [&](int a) { return a != stiffness_ && !sameAcquisition(e_, a, stiffness_); });
     if (several && chosen.last == Tie::Order)
       said.add(DiagnosticCode::PartnerByOrder, about({}));
     else if (several)
       said.add(DiagnosticCode::PartnerTaken, about({{"tie", tiesOf(e_, stiffness_, taken)}}));
     for (const Tie tie : {Tie::References, Tie::Uid, Tie::SeriesNumbers, Tie::Number, Tie::Frame, Tie::Time}) {
       if (e_.judge(tie, stiffness_, taken) != Verdict::Other) continue;
-      const auto rival = std::find_if(all.begin(), all.end(), [&](int c) {
-        return c != taken && e_.judge(tie, stiffness_, c) == Verdict::Same;
-      });
+      const auto rival = std::find_if(
+          all.begin(), all.end(), [&](int c) { return c != taken && e_.judge(tie, stiffness_, c) == Verdict::Same; });
       if (rival != all.end()) {
-        said.add(DiagnosticCode::PartnerContradicted,
-                 about({{"tie", tiesOf(e_, stiffness_, taken)}, {"against", words(tie)}, {"other", numberOf(e_, *rival)}}));
+        said.add(DiagnosticCode::PartnerContradicted, about({{"tie", tiesOf(e_, stiffness_, taken)},
+                                                             {"against", detail::words(tie)},
+                                                             {"other", numberOf(e_, *rival)}}));
         return;
       }
       const bool numbered = e_.judge(Tie::SeriesNumbers, stiffness_, taken) == Verdict::Same;
-      if (strong(tie) || tie == Tie::Frame || (tie == Tie::Number && !numbered))
-        said.add(DiagnosticCode::PartnerDoubtful, about({{"what", words(tie)}}));
+      if (detail::strong(tie) || tie == Tie::Frame || (tie == Tie::Number && !numbered))
+        said.add(DiagnosticCode::PartnerDoubtful, about({{"what", detail::words(tie)}}));
     }
   }
 
@@ -393,7 +229,7 @@ void addRest(const Evidence& e, std::vector<Acquisition>& all) {
       return std::all_of(members.begin(), members.end(), [&](int m) {
         if (!e.together(m, i)) return false;
         for (const Tie tie : ties)
-          if ((strong(tie) || tie == Tie::Number) && e.judge(tie, m, i) != Verdict::Unknown)
+          if ((detail::strong(tie) || tie == Tie::Number) && e.judge(tie, m, i) != Verdict::Unknown)
             return e.judge(tie, m, i) == Verdict::Same;
         return false;
       });
@@ -423,8 +259,8 @@ std::vector<Acquisition> acquisitions(const ScanResult& scan) {
   std::vector<Acquisition> all;
   for (int i = 0; i < e.size(); ++i) {
     if (e.series(i).role != SeriesRole::Stiffness) continue;
-    const auto home = std::find_if(all.begin(), all.end(),
-                                   [&](const Acquisition& a) { return sameAcquisition(e, a.stiffness, i); });
+    const auto home =
+        std::find_if(all.begin(), all.end(), [&](const Acquisition& a) { return sameAcquisition(e, a.stiffness, i); });
     if (home == all.end()) {
       all.push_back(partners(e, i));
     } else if (e.series(home->stiffness).masked && !e.series(i).masked) {

@@ -11,10 +11,10 @@ namespace glisson::dicom {
 /// The products of one elastography acquisition, as indices into ScanResult::series; -1 where there is none.
 struct Acquisition {
   int magnitude = -1, stiffness = -1, confidence = -1;
-  std::vector<int> wave;             ///< every volume of the wave images, in order of the list
-  std::vector<int> otherStiffness;   ///< masked copies and the like
-  std::string why;                   ///< what ties them together, in words
-  Diagnostics diagnostics;           ///< what is doubtful about it
+  std::vector<int> wave;            ///< every volume of the wave images, in order of the list
+  std::vector<int> otherStiffness;  ///< masked copies and the like
+  std::string why;                  ///< what ties them together, in words
+  Diagnostics diagnostics;          ///< what is doubtful about it
 };
 
 /// What belongs to the stiffness series at that place: by what the files say, strongest first: one series, references

@@ -24,9 +24,7 @@ struct MapItem {
   std::string unit;
   std::optional<MapQuantity> quantity;
 
-  bool ofStiffness() const {
-    return mapUnit(unit).has_value() || (quantity && *quantity != MapQuantity::Other);
-  }
+  bool ofStiffness() const { return mapUnit(unit).has_value() || (quantity && *quantity != MapQuantity::Other); }
 };
 
 bool close(double a, double b) {
@@ -106,8 +104,7 @@ std::optional<MapItem> readItem(DcmItem& item, const ImageHeader& h) {
   map.bounded = first && last && *first < *last;
   if (map.bounded) {
     // Limits of floating point pixels are often written with fewer digits than the pixels have.
-    const double slack =
-        h.kind == PixelKind::Integer ? 0.0 : 1e-6 * std::max(std::abs(*first), std::abs(*last));
+    const double slack = h.kind == PixelKind::Integer ? 0.0 : 1e-6 * std::max(std::abs(*first), std::abs(*last));
     map.segment.first = *first - slack;
     map.segment.last = *last + slack;
   } else {
@@ -121,7 +118,8 @@ std::vector<MapItem> itemsOf(DcmItem* mapping, const ImageHeader& h) {
   std::vector<MapItem> items;
   if (mapping == nullptr) return items;
   for (unsigned long n = 0; n < itemCount(*mapping, DCM_RealWorldValueMappingSequence); ++n)
-    if (auto map = readItem(*itemOf(*mapping, DCM_RealWorldValueMappingSequence, n), h)) items.push_back(std::move(*map));
+    if (auto map = readItem(*itemOf(*mapping, DCM_RealWorldValueMappingSequence, n), h))
+      items.push_back(std::move(*map));
   return items;
 }
 
@@ -215,9 +213,8 @@ void readValues(DcmItem& transformation, DcmItem* mapping, Frame& frame, ImageHe
                [](const MapItem& item) { return item.ofStiffness(); });
   if (slope && mapUnit(frame.unit)) {
     if (stiffness.empty()) return;
-    const auto same = std::find_if(stiffness.begin(), stiffness.end(), [&](const MapItem& item) {
-      return agree(item, frame.rescale, frame.unit);
-    });
+    const auto same = std::find_if(stiffness.begin(), stiffness.end(),
+                                   [&](const MapItem& item) { return agree(item, frame.rescale, frame.unit); });
     if (same != stiffness.end())
       useMap({*same}, frame, header);
     else

@@ -90,7 +90,7 @@ struct ImageHeader {
   std::vector<std::string> references;  ///< UIDs of series and images that it was made of or refers to
   std::vector<ValueMap> maps;
   std::optional<std::pair<double, double>> padding;  ///< stored values from, to: no image there
-  std::optional<double> privateScale;  ///< Philips' own: value = rescaled / (slope * this)
+  std::optional<double> privateScale;                ///< Philips' own: value = rescaled / (slope * this)
   int seriesNumber = 0;
   int rows = 0;
   int columns = 0;

@@ -111,12 +111,13 @@ void PixelReader::runs(const Frame& frame, float* values, const Each& each) {
 void PixelReader::read(const Frame& frame, float* values) {
   runs(frame, values, [&](const std::uint8_t* from, std::size_t count, float* to) {
     if (frame.map < 0) {
-      convert(header_, from, count,
-              [r = frame.rescale](double stored) { return r.slope * stored + r.intercept; }, to);
+      convert(
+          header_, from, count, [r = frame.rescale](double stored) { return r.slope * stored + r.intercept; }, to);
       return;
     }
     const ValueMap& map = header_.maps[static_cast<std::size_t>(frame.map)];
-    convert(header_, from, count, [&map](double stored) { return valueOf(segmentOf(map, stored), stored); }, to);
+    convert(
+        header_, from, count, [&map](double stored) { return valueOf(segmentOf(map, stored), stored); }, to);
   });
 }
 

@@ -12,15 +12,29 @@ struct Word {
   SeriesRole role;
 };
 
-constexpr Word words[] = {
-    {"confidence", SeriesRole::Confidence}, {"confmap", SeriesRole::Confidence},   {"conf map", SeriesRole::Confidence},
-    {"95conf", SeriesRole::Confidence},     {"95% conf", SeriesRole::Confidence},  {"stiffness", SeriesRole::Stiffness},
-    {"stiff", SeriesRole::Stiffness},       {"elastogram", SeriesRole::Stiffness}, {"shear mod", SeriesRole::Stiffness},
-    {"shearmod", SeriesRole::Stiffness},    {"young", SeriesRole::Stiffness},      {"elastic mod", SeriesRole::Stiffness},
-    {"wave speed", SeriesRole::Stiffness},  {"wavespeed", SeriesRole::Stiffness},  {"shear speed", SeriesRole::Stiffness},
-    {"wave velocity", SeriesRole::Stiffness}, {"wave", SeriesRole::Wave},          {"displacement", SeriesRole::Wave},
-    {"loss mod", SeriesRole::Other},        {"storage mod", SeriesRole::Other},    {"damping", SeriesRole::Other},
-    {"viscosity", SeriesRole::Other},       {"strain", SeriesRole::Other}};
+constexpr Word words[] = {{"confidence", SeriesRole::Confidence},
+                          {"confmap", SeriesRole::Confidence},
+                          {"conf map", SeriesRole::Confidence},
+                          {"95conf", SeriesRole::Confidence},
+                          {"95% conf", SeriesRole::Confidence},
+                          {"stiffness", SeriesRole::Stiffness},
+                          {"stiff", SeriesRole::Stiffness},
+                          {"elastogram", SeriesRole::Stiffness},
+                          {"shear mod", SeriesRole::Stiffness},
+                          {"shearmod", SeriesRole::Stiffness},
+                          {"young", SeriesRole::Stiffness},
+                          {"elastic mod", SeriesRole::Stiffness},
+                          {"wave speed", SeriesRole::Stiffness},
+                          {"wavespeed", SeriesRole::Stiffness},
+                          {"shear speed", SeriesRole::Stiffness},
+                          {"wave velocity", SeriesRole::Stiffness},
+                          {"wave", SeriesRole::Wave},
+                          {"displacement", SeriesRole::Wave},
+                          {"loss mod", SeriesRole::Other},
+                          {"storage mod", SeriesRole::Other},
+                          {"damping", SeriesRole::Other},
+                          {"viscosity", SeriesRole::Other},
+                          {"strain", SeriesRole::Other}};
 
 /// Small letters; what parts words is a space.
 std::string spaced(std::string text) {

@@ -49,8 +49,7 @@ void contradict(Series& s, const char* by, const char* against, SeriesRole other
 void setGeUnit(Series& s) {
   const auto words = unitInWords(s.description);
   if (s.unit && mapUnit(*s.unit)) {
-    if (*s.unit != "Pa")
-      tell(s, DiagnosticCode::UnitAgainstVendor, {{"usual", std::string("Pa")}, {"unit", *s.unit}});
+    if (*s.unit != "Pa") tell(s, DiagnosticCode::UnitAgainstVendor, {{"usual", std::string("Pa")}, {"unit", *s.unit}});
   } else if (words && *words != "Pa") {
     s.unit = *words;
     tell(s, DiagnosticCode::UnitByWords, {{"usual", std::string("Pa")}, {"unit", *words}});
@@ -142,8 +141,7 @@ void setByDescription(Series& s) {
   const auto byType = productNamed(type, false), byWords = productNamed(description, named);
   if (byType || byWords) {
     const Product& product = byType ? *byType : *byWords;
-    set(s, product.role,
-        std::string(byType ? "image type" : "series description") + " holds '" + product.word + "'");
+    set(s, product.role, std::string(byType ? "image type" : "series description") + " holds '" + product.word + "'");
     s.masked = product.masked || (byWords && byWords->masked);
     if (byType && byWords && byType->role != byWords->role)
       contradict(s, "its image type", "its description", byWords->role);

@@ -6,8 +6,8 @@
 
 namespace glisson::dicom {
 
-/// Guesses what the volumes of one SeriesInstanceUID are for, each by what its own images say, and sets role, roleReason
-/// and (where the vendor or the description says so) unit.
+/// Guesses what the volumes of one SeriesInstanceUID are for, each by what its own images say, and sets role,
+/// roleReason and (where the vendor or the description says so) unit.
 void setRoles(std::vector<Series>& volumes);
 
 /// Whether its role was set by hand (applyRoles).

@@ -30,9 +30,9 @@ struct ReferencedSeries {
 };
 
 struct StructureSet {
-  Origin origin;                            ///< study: the one that it was drawn on
-  std::string frameOfReferenceUid;          ///< the first one named
-  std::string referencedSeriesUid;          ///< the first one named
+  Origin origin;                             ///< study: the one that it was drawn on
+  std::string frameOfReferenceUid;           ///< the first one named
+  std::string referencedSeriesUid;           ///< the first one named
   std::vector<ReferencedSeries> references;  ///< all, in order
   std::vector<Structure> structures;
   std::vector<std::string> warnings;

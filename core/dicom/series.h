@@ -37,10 +37,10 @@ struct Acquired {
   std::optional<double> time_s;         ///< of its earliest slice; to compare, never to show
   std::vector<std::string> references;  ///< UIDs of series and images that it was made of or refers to
   std::string manufacturer, sequenceName, imageType;
-  bool phaseCoded = false;              ///< GE's private image type is not magnitude
-  bool elastographyStep = false;        ///< names its time step in a vibration period
-  bool rescaled = false;                ///< values are not the stored ones
-  std::optional<double> privateScale;   ///< Philips' own, where it differs from the rescale and no unit is named
+  bool phaseCoded = false;             ///< GE's private image type is not magnitude
+  bool elastographyStep = false;       ///< names its time step in a vibration period
+  bool rescaled = false;               ///< values are not the stored ones
+  std::optional<double> privateScale;  ///< Philips' own, where it differs from the rescale and no unit is named
 };
 
 /// One volume's worth of files, ordered by position along the slice normal.
@@ -74,7 +74,7 @@ struct Series {
   std::optional<MapQuantity> quantity; ///< where a code of the file says so
   bool masked = false;                 ///< a stiffness map that is called a masked copy: without what is not trusted
   Acquired acquired;
-  std::vector<std::string> warnings;   ///< texts, those of diagnostics among them
+  std::vector<std::string> warnings;  ///< texts, those of diagnostics among them
   Diagnostics diagnostics;
   std::optional<std::string> error;    ///< why it cannot be read as a volume; readSeries throws BadInput with it
   std::optional<std::string> noScale;  ///< why its values are no measure (two scales); readMap throws BadInput with it

@@ -34,8 +34,8 @@ void takeUnit(const std::vector<SliceFacts>& slices, Series& series) {
     else
       ++counts[s.frame->unit];
   if (counts.empty()) return;
-  const auto most = std::max_element(counts.begin(), counts.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto most =
+      std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   series.unit = most->first;
   const auto unit = mapUnit(most->first);
   const bool alike = std::all_of(counts.begin(), counts.end(), [&](const auto& other) {

@@ -29,14 +29,13 @@ int numberIn(const std::string& name) {
   return problem == std::errc() && end == name.data() + name.size() ? number : 0;
 }
 
-const dicom::Structure& choose(const dicom::StructureSet& set, const std::string& name, int number,
-                               Diagnostics* said) {
+const dicom::Structure& choose(const dicom::StructureSet& set, const std::string& name, int number, Diagnostics* said) {
   if (number == 0) number = numberIn(name);
   std::vector<const dicom::Structure*> fit;
   for (const dicom::Structure& s : set.structures)
-    if (number != 0      ? s.number == number
+    if (number != 0    ? s.number == number
         : name.empty() ? lowerCase(s.name).find("liver") != std::string::npos
-                         : lowerCase(s.name) == lowerCase(name))
+                       : lowerCase(s.name) == lowerCase(name))
       fit.push_back(&s);
   if (number == 0 && name.empty() && fit.empty() && set.structures.size() == 1) fit.push_back(&set.structures.front());
   if (fit.size() > 1) {
@@ -49,9 +48,9 @@ const dicom::Structure& choose(const dicom::StructureSet& set, const std::string
     if (drawn.size() == 1) fit = drawn;
   }
   if (fit.size() == 1) return *fit.front();
-  const std::string wanted = number != 0      ? "of number " + std::to_string(number)
+  const std::string wanted = number != 0    ? "of number " + std::to_string(number)
                              : name.empty() ? std::string("with 'liver' in its name")
-                                              : "called '" + name.substr(0, 64) + "'";
+                                            : "called '" + name.substr(0, 64) + "'";
   throw BadInput("the structure set has " + std::to_string(fit.size()) + " structures " + wanted +
                  "; say which one to take, by its number (--label 2, or --name '#2') or a name that only one has. "
                  "There are: " +
@@ -88,8 +87,8 @@ roi::ContourStack roiFromStructures(const dicom::StructureSet& structures, const
   result.name = structure.name;
   result.frameOfReferenceUid =
       structure.frameOfReferenceUid.empty() ? onlyFrame(structures) : structure.frameOfReferenceUid;
-  result.seriesUid = structures.references.empty() ? structures.referencedSeriesUid
-                                                   : seriesIn(structures, result.frameOfReferenceUid);
+  result.seriesUid =
+      structures.references.empty() ? structures.referencedSeriesUid : seriesIn(structures, result.frameOfReferenceUid);
   for (const dicom::StructureContour& contour : structure.contours) {
     roi::Polygon polygon;
     polygon.points_lps_mm = roi::distinctRing(contour.points_lps_mm);

@@ -15,8 +15,8 @@ namespace glisson::elastography {
 /// vertices are skipped. Frame of reference and series are the structure's own, else those of the only ones that the
 /// set names. said: what is to be told (null: nobody). Throws BadInput listing numbers and names where none or several
 /// fit, or where the structure has no usable contour.
-roi::ContourStack roiFromStructures(const dicom::StructureSet& structures, const std::string& name = {},
-                                    int number = 0, Diagnostics* said = nullptr);
+roi::ContourStack roiFromStructures(const dicom::StructureSet& structures, const std::string& name = {}, int number = 0,
+                                    Diagnostics* said = nullptr);
 
 /// The reverse, for writing: polygons that count, drafts and repeated ones left out, holes as contours of their own.
 dicom::Structure toStructure(const roi::ContourStack& contours, int number);

@@ -27,7 +27,8 @@ void warn(Measurement& m) {
   if (2 * m.pooled.n < before) {
     std::ostringstream few;
     few << "only " << m.pooled.n << " of " << before << " voxels count (" << m.lowConfidence
-        << " below the confidence, " << m.noConfidence << " without a confidence, " << m.notPositive << " not positive, " << m.notFinite << " not finite)";
+        << " below the confidence, " << m.noConfidence << " without a confidence, " << m.notPositive
+        << " not positive, " << m.notFinite << " not finite)";
     m.warnings.push_back(few.str());
   } else if (m.notPositive + m.notFinite > 0) {
     std::ostringstream some;
@@ -198,9 +199,9 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
   }
   if (all.empty())
     throw BadInput("no voxel of the region of interest can be used: of " + std::to_string(before) + " voxels " +
-                   std::to_string(m.lowConfidence) + " lie below the confidence, " +
-                   std::to_string(m.noConfidence) + " have no confidence value, " + std::to_string(m.notPositive) +
-                   " are not positive, " + std::to_string(m.notFinite) +
+                   std::to_string(m.lowConfidence) + " lie below the confidence, " + std::to_string(m.noConfidence) +
+                   " have no confidence value, " + std::to_string(m.notPositive) + " are not positive, " +
+                   std::to_string(m.notFinite) +
                    " are not finite; check the region, or lower the confidence threshold");
   m.pooled = statisticsOf(std::move(all), voxelArea_mm2);
   m.pooled.n_before_mask = before;

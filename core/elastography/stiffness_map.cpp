@@ -111,8 +111,7 @@ Diagnostics doubtsAboutConfidence(const StiffnessMap& map, const ConfidenceScale
     without += here;
     if (here == perSlice) slices += (slices.empty() ? "" : ", ") + std::to_string(k);
   }
-  const double covered =
-      100.0 * (1.0 - static_cast<double>(without) / static_cast<double>(missing.values.size()));
+  const double covered = 100.0 * (1.0 - static_cast<double>(without) / static_cast<double>(missing.values.size()));
   doubts.add(DiagnosticCode::ConfidenceCoversLess,
              {{"percent", covered}, {"slices", slices.empty() ? std::string("none") : slices}});
   return doubts;

@@ -47,11 +47,12 @@ elastography::Registration fitToMri(LoadedStiffness& mre, const std::filesystem:
   if (magnitude.empty() && std::filesystem::is_regular_file(mrePath) && image::isVolumeFile(mrePath))
     throw BadInput("a bare map has no magnitude image to lay over the MRI; give it");
   const image::ScalarVolume moving = magnitude.empty() ? magnitudeOf(mre, mrePath, progress.part(0.0, 0.3))
-                                                     : magnitudeOf(magnitude, progress.part(0.0, 0.3));
+                                                       : magnitudeOf(magnitude, progress.part(0.0, 0.3));
   elastography::Registration r = elastography::registerRigid(mri, moving, {}, progress.part(0.3, 1.0));
   mre.map.values_kPa.grid = elastography::moved(mre.map.values_kPa.grid, r.X_fixed_moving);
   if (mre.map.confidence) mre.map.confidence->grid = elastography::moved(mre.map.confidence->grid, r.X_fixed_moving);
-  if (mre.map.noConfidence) mre.map.noConfidence->grid = elastography::moved(mre.map.noConfidence->grid, r.X_fixed_moving);
+  if (mre.map.noConfidence)
+    mre.map.noConfidence->grid = elastography::moved(mre.map.noConfidence->grid, r.X_fixed_moving);
   mre.warnings.push_back(elastography::describe(r));
   return r;
 }

@@ -24,7 +24,7 @@ struct Inputs {
   std::optional<elastography::StiffnessMap> stiffness;  ///< MRE or map, with its confidence
   std::optional<elastography::MappedRoi> roiOnMre;      ///< region of interest on the grid of the elastogram
   std::optional<elastography::Registration> registration;  ///< of the elastogram, where the scene asks for it
-  std::vector<std::string> warnings;  ///< texts, those of diagnostics among them
+  std::vector<std::string> warnings;                       ///< texts, those of diagnostics among them
   Diagnostics diagnostics;
   std::vector<std::pair<std::string, double>> seconds;  ///< what reading took, by step of the plan
 };

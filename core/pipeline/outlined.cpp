@@ -72,8 +72,7 @@ const dicom::Acquisition* acquisitionOf(const std::vector<dicom::Acquisition>& a
     const auto in = [series](const std::vector<int>& list) {
       return std::find(list.begin(), list.end(), series) != list.end();
     };
-    if (a.stiffness == series || a.magnitude == series || a.confidence == series || in(a.wave) ||
-        in(a.otherStiffness))
+    if (a.stiffness == series || a.magnitude == series || a.confidence == series || in(a.wave) || in(a.otherStiffness))
       return &a;
   }
   return nullptr;
@@ -85,7 +84,8 @@ int outlinedSeries(const dicom::ScanResult& scan, const OutlineNames& names, Dia
   const int images = byImages(scan, names), series = bySeries(scan, names);
   if (images < 0) return series;
   if (series >= 0 && said != nullptr &&
-      stem(scan.series[static_cast<std::size_t>(series)].uid) != stem(scan.series[static_cast<std::size_t>(images)].uid))
+      stem(scan.series[static_cast<std::size_t>(series)].uid) !=
+          stem(scan.series[static_cast<std::size_t>(images)].uid))
     said->add(DiagnosticCode::OutlineNamesContradict,
               {{"named", numberOf(scan, series)}, {"series", numberOf(scan, images)}});
   return images;
@@ -99,12 +99,10 @@ const dicom::Series& seriesFor(const dicom::ScanResult& scan, SeriesRole role, c
                                   [&](const auto& s) { return s.role == role && dicom::setByHand(s); });
   if (role != SeriesRole::Stiffness && named >= 0 && !byHand) {
     const dicom::Series& outlined = scan.series[static_cast<std::size_t>(named)];
-    const bool others = std::any_of(scan.series.begin(), scan.series.end(), [&](const auto& s) {
-      return &s != &outlined && s.role == role && !s.error;
-    });
+    const bool others = std::any_of(scan.series.begin(), scan.series.end(),
+                                    [&](const auto& s) { return &s != &outlined && s.role == role && !s.error; });
     if (servesAsMri(outlined, others)) {
-      if (others)
-        said.add(DiagnosticCode::SeriesByOutline, {{"series", numberOf(scan, named)}, {"what", what}});
+      if (others) said.add(DiagnosticCode::SeriesByOutline, {{"series", numberOf(scan, named)}, {"what", what}});
       return outlined;
     }
   }
@@ -112,9 +110,8 @@ const dicom::Series& seriesFor(const dicom::ScanResult& scan, SeriesRole role, c
   if (named < 0) return taken;
   if (role != SeriesRole::Stiffness) {
     if (stem(taken.uid) != stem(scan.series[static_cast<std::size_t>(named)].uid))
-      said.add(DiagnosticCode::OutlinedSeriesNotTaken, {{"named", numberOf(scan, named)},
-                                                        {"taken", static_cast<std::int64_t>(taken.number)},
-                                                        {"what", what}});
+      said.add(DiagnosticCode::OutlinedSeriesNotTaken,
+               {{"named", numberOf(scan, named)}, {"taken", static_cast<std::int64_t>(taken.number)}, {"what", what}});
     return taken;
   }
   const std::vector<dicom::Acquisition> all = dicom::acquisitions(scan);

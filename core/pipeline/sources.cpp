@@ -141,8 +141,7 @@ bool mayBeRoi(const std::filesystem::path& file) {
 }
 
 /// The only region of interest below a folder; files of the same bytes are one.
-LoadedRoi onlyRoiIn(const std::filesystem::path& folder, const std::string& name, int label,
-                    const Progress& progress) {
+LoadedRoi onlyRoiIn(const std::filesystem::path& folder, const std::string& name, int label, const Progress& progress) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.is_regular_file()) files.push_back(entry.path());
@@ -164,8 +163,7 @@ LoadedRoi onlyRoiIn(const std::filesystem::path& folder, const std::string& name
   if (found.size() > 1)
     throw BadInput("'" + folder.filename().string() + "' holds " + std::to_string(found.size()) +
                    " regions of interest: " + names + "; give the file that is meant");
-  if (found.empty())
-    throw BadInput("no region of interest was found in '" + folder.filename().string() + "': " + last);
+  if (found.empty()) throw BadInput("no region of interest was found in '" + folder.filename().string() + "': " + last);
   return std::move(found.front());
 }
 
@@ -319,8 +317,7 @@ Diagnostics doubtsAboutOutline(const LoadedRoi& roi, const AnatomicalImage* mri,
       said.add(DiagnosticCode::OutlinedSeriesAbsent, {{"taken", taken}, {"what", std::string("MRI")}});
   }
   if (roi.ofDicom && roi.frameOfReferenceUid.empty() && (mri != nullptr || mre != nullptr))
-    said.add(DiagnosticCode::OutlineFrameMissing,
-             {{"image", std::string(mri != nullptr ? "MRI" : "elastogram")}});
+    said.add(DiagnosticCode::OutlineFrameMissing, {{"image", std::string(mri != nullptr ? "MRI" : "elastogram")}});
   return said;
 }
 

@@ -43,8 +43,8 @@ AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& pro
 struct MapMeaning {
   std::optional<StiffnessQuantity> quantity;
   std::optional<std::string> unit;
-  dicom::RoleOverrides roles{};           ///< set by hand
-  OutlineNames outlined{};                ///< what the region of interest was drawn on
+  dicom::RoleOverrides roles{};             ///< set by hand
+  OutlineNames outlined{};                  ///< what the region of interest was drawn on
   std::optional<double> confidenceScale{};  ///< stored value of full confidence; empty: by the map
   bool mayBeUneven = false;  ///< for statistics alone: slices may lie unevenly (StiffnessMap::unevenSlices_mm)
 };
@@ -56,9 +56,9 @@ struct LoadedStiffness {
   std::string studyUid;
   std::vector<std::string> warnings;  ///< texts, those of diagnostics among them
   Diagnostics diagnostics;
-  std::vector<std::string> rolesNotFound;        ///< as in AnatomicalImage
+  std::vector<std::string> rolesNotFound;         ///< as in AnatomicalImage
   std::shared_ptr<const dicom::ScanResult> scan;  ///< of DICOM images
-  dicom::Acquisition acquisition;                ///< what was taken, in scan
+  dicom::Acquisition acquisition;                 ///< what was taken, in scan
 };
 
 /// The map of a stiffness series in kPa: in the unit and of the quantity that are asked for, else that its code, its

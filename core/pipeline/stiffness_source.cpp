@@ -24,8 +24,8 @@ MapQuantity quantityOf(const dicom::Series& series, const MapMeaning& meaning, c
   const auto words = dicom::quantityInWords(series.description);
   if (meaning.quantity) {
     if (series.quantity && *series.quantity != of(*meaning.quantity))
-      said.add(DiagnosticCode::QuantityAsAsked, {{"quantity", dicom::inWords(*series.quantity)},
-                                                 {"asked", dicom::inWords(of(*meaning.quantity))}});
+      said.add(DiagnosticCode::QuantityAsAsked,
+               {{"quantity", dicom::inWords(*series.quantity)}, {"asked", dicom::inWords(of(*meaning.quantity))}});
     return of(*meaning.quantity);
   }
   if (series.quantity == MapQuantity::Other || (!series.quantity && words == MapQuantity::Other))

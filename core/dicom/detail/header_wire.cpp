@@ -61,8 +61,7 @@ void exchange(Wire& w, ImageHeader& h) {
   w(h.layout.transferSyntax);
   for (std::string* text :
        {&h.seriesUid, &h.studyUid, &h.frameOfReferenceUid, &h.sopInstanceUid, &h.sopClassUid, &h.patientKey,
-        &h.studyDate, &h.modality, &h.description, &h.imageType, &h.manufacturer, &h.sequenceName,
-        &h.acquisitionUid})
+        &h.studyDate, &h.modality, &h.description, &h.imageType, &h.manufacturer, &h.sequenceName, &h.acquisitionUid})
     w(*text);
   w(h.acquisitionNumber);
   w(h.acquisition_s);
@@ -128,8 +127,8 @@ void check(const ImageHeader& h, std::uint64_t fileBytes) {
   }
   for (const ValueMap& map : h.maps)
     for (const ValueSegment& segment : map)
-      if (map.empty() || (!segment.table.empty() && segment.last - segment.first + 1.0 !=
-                                                        static_cast<double>(segment.table.size())))
+      if (map.empty() ||
+          (!segment.table.empty() && segment.last - segment.first + 1.0 != static_cast<double>(segment.table.size())))
         WireReader::fail();
   for (std::size_t n = 0; n < h.frames.size(); ++n) {
     const Frame& f = h.frames[n];
@@ -162,8 +161,7 @@ ImageHeader headerFrom(const std::string& message, std::uint64_t fileBytes) {
   w.end();
   check(h, fileBytes);
   for (std::string* text : {&h.layout.transferSyntax, &h.studyUid, &h.frameOfReferenceUid, &h.sopClassUid, &h.modality,
-                            &h.description, &h.imageType, &h.manufacturer, &h.sequenceName,
-                            &h.acquisitionUid})
+                            &h.description, &h.imageType, &h.manufacturer, &h.sequenceName, &h.acquisitionUid})
     *text = shownFrom(std::move(*text));
   h.announced.concatenationUid = shownFrom(std::move(h.announced.concatenationUid));
   for (std::vector<std::string>* texts : {&h.warnings, &h.references})
