@@ -180,7 +180,7 @@ void addSupports(const Body& body, const Model& model, const Setup& setup, const
     if (f.node >= 0) supports.fixations.push_back(f);
   }
   for (const SupportSpec& s : setup.supports) {
-    if (s.kind != SupportSpec::Kind::Spring || !(s.stiffness_kPa_per_mm > 0)) continue;
+    if (s.kind != SupportSpec::Kind::Spring || s.unilateral || !(s.stiffness_kPa_per_mm > 0)) continue;
     const double k_N_m3 = mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm;
     const std::optional<Eigen::Vector3d> look = model.smooth ? lookOf(s.region) : std::nullopt;
     if (!look) {
@@ -203,6 +203,33 @@ void addSupports(const Body& body, const Model& model, const Setup& setup, const
         supports.springs.push_back({node, share * k_N_m3 * seen_m2 * along});
     }
   }
+}
+
+/// What only large deformation has: pressures that follow their faces, and springs that press only.
+void addFollowing(const Body& body, const Setup& setup, const Eigen::Vector3d& shift_m, mechanics::ContactProblem& p) {
+  const mechanics::VoxelMesh& mesh = body.mesh();
+  const auto corners = [&](const SurfaceFace& f) {
+    std::array<Eigen::Vector3d, 4> c;
+    for (std::size_t i = 0; i < 4; ++i) c[i] = mesh.position_m(f.nodes[i]) + shift_m;
+    // In turn round the face, anticlockwise seen from outside.
+    const Eigen::Vector3d middle = 0.25 * (c[0] + c[1] + c[2] + c[3]), normal = mechanics::faceNormal(f.face.side);
+    const Eigen::Vector3d first = c[0] - middle, second = normal.cross(first);
+    std::sort(c.begin(), c.end(), [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      const auto angle = [&](const Eigen::Vector3d& v) { return std::atan2((v - middle).dot(second), (v - middle).dot(first)); };
+      return angle(a) < angle(b);
+    });
+    return c;
+  };
+  for (const LoadSpec& load : setup.loads)
+    if (const auto* pressure = std::get_if<Pressure>(&load); pressure != nullptr && pressure->follows)
+      for (const SurfaceFace* f : body.faces(pressure->region))
+        p.pressures.push_back({corners(*f), 1e3 * pressure->kPa});
+  for (const SupportSpec& s : setup.supports)
+    if (s.kind == SupportSpec::Kind::Spring && s.unilateral && s.stiffness_kPa_per_mm > 0)
+      for (const SurfaceFace* f : body.faces(s.region))
+        for (const int node : f->nodes)
+          p.bed.push_back({mesh.position_m(node) + shift_m, mechanics::faceNormal(f->face.side),
+                           0.25 * mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm * f->area_m2});
 }
 
 /// The capsule as a stiffening of the cells that the surface passes through: membrane tension over the cell's height.
@@ -253,6 +280,18 @@ std::optional<Retractor> rigidBarOf(const Setup& setup) {
   return {};
 }
 
+bool inLargeDeformation(const Setup& setup) {
+  return setup.kinematics == Kinematics::Hyperelastic || rigidBarOf(setup).has_value();
+}
+
+mechanics::ContactProblem withoutBar(const Body& body, const Setup& setup, const MechanicsScene& scene) {
+  mechanics::ContactProblem p;
+  p.problem = scene.problem;
+  p.law = setup.law.value_or(mechanics::SolidLaw::Logarithmic);
+  addFollowing(body, setup, Eigen::Vector3d::Zero(), p);
+  return p;
+}
+
 ContactScene contactScene(const Body& body, const Model& model, const Setup& setup, const MechanicsScene& scene,
                           const Retractor& bar) {
   ContactScene out;
@@ -271,6 +310,7 @@ ContactScene contactScene(const Body& body, const Model& model, const Setup& set
     const Eigen::Vector3i at = body.mesh().latticeOf(node) + out.layers;
     if (const int to = mesh.nodeAt(at.x(), at.y(), at.z()); to >= 0) p.problem.f_N.col(to) += scene.problem.f_N.col(node);
   }
+  addFollowing(body, setup, shift_m, p);
   p.law = setup.kinematics == Kinematics::Linear ? mechanics::SolidLaw::Linear
                                                   : setup.law.value_or(mechanics::SolidLaw::Polynomial);
   if (setup.capsule) p.skin_Pa = capsuleCells(p.problem.body, p.surface, *setup.capsule);

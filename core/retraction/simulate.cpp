@@ -145,10 +145,9 @@ Answer solve(const Model& patient, const Body& body, const MechanicsScene& scene
       a.solution =
           mechanics::solveLargeDeformation(problem, mechanics::LargeDeformationKind::Corotational, options, progress);
     } else {
-      mechanics::ContactProblem body_;
-      body_.problem = problem;
-      body_.law = setup.law.value_or(mechanics::SolidLaw::Logarithmic);
-      a.solution = mechanics::solveContact(body_, {.tolerance = options.tolerance}, progress).solution;
+      mechanics::ContactOptions contact;
+      contact.tolerance = options.tolerance;
+      a.solution = mechanics::solveContact(withoutBar(body, setup, scene), contact, progress).solution;
     }
     if (setup.kinematics == Kinematics::Hyperelastic)
       a.notes.push_back("hyperelastic kinematics use mean-dilatation hexahedra, whatever element the scene names");

@@ -106,6 +106,8 @@ struct LoadBuilder {
   const Model& model;
   std::optional<Contact>& contact;
   bool rigid;
+  bool large;         ///< solved in large deformation: what follows is no dead load
+  bool corotational;
 
   std::vector<FaceTraction> operator()(const BodyForce&) const { return {}; }
   std::vector<FaceTraction> operator()(const Traction& load) const {
@@ -115,6 +117,10 @@ struct LoadBuilder {
     return out;
   }
   std::vector<FaceTraction> operator()(const Pressure& load) const {
+    if (load.follows && large) return {};  // the contact solver lets it follow
+    if (load.follows && corotational)
+      throw BadInput("a pressure that follows its faces is offered for kinematics \"hyperelastic\": choose these, or leave "
+                     "\"follows\" out");
     std::vector<FaceTraction> out;
     for (const SurfaceFace* f : body.faces(load.region))
       out.push_back({f->face, -kPaToPa * load.kPa * mechanics::faceNormal(f->face.side)});
@@ -173,7 +179,11 @@ MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& se
   MechanicsScene scene;
   scene.problem.body = body.voxels();
   std::map<int, mechanics::Fixation> fixations;
+  std::vector<mechanics::Spring> pressing;  // hold the body as well, but are no springs of the linear problem
   for (const SupportSpec& s : setup.supports) {
+    if (s.unilateral && !inLargeDeformation(setup))
+      throw BadInput("a spring that only presses (\"unilateral\") is offered for kinematics \"hyperelastic\" or a rigid "
+                     "retractor: change that, or let it pull as well");
     std::vector<mechanics::Foundation> own;
     if (s.kind == SupportSpec::Kind::Fixed)
       addFixed(body, s, fixations);
@@ -183,11 +193,16 @@ MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& se
                s.normalOnly ? mechanics::SpringDirection::Normal : mechanics::SpringDirection::Every))
         own.push_back(f);
     for (const mechanics::Spring& spring : mechanics::faceSprings(body.mesh(), own))
-      scene.problem.supports.springs.push_back(spring);
+      (s.unilateral ? pressing : scene.problem.supports.springs).push_back(spring);
+    if (s.unilateral) continue;
     scene.foundations.insert(scene.foundations.end(), own.begin(), own.end());
   }
   for (const auto& [node, f] : fixations) scene.problem.supports.fixations.push_back(f);
-  if (!setup.analysis.dynamic) requireSupported(body, scene.problem.supports);
+  if (!setup.analysis.dynamic) {
+    mechanics::Supports all = scene.problem.supports;
+    all.springs.insert(all.springs.end(), pressing.begin(), pressing.end());
+    requireSupported(body, all);
+  }
 
   if (std::count_if(setup.loads.begin(), setup.loads.end(),
                     [](const LoadSpec& load) { return std::holds_alternative<Retractor>(load); }) > 1)
@@ -195,7 +210,8 @@ MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& se
   const bool rigid = rigidBarOf(setup).has_value();
   scene.problem.f_N = zeroField(body);
   for (const LoadSpec& load : setup.loads) {
-    scene.tractions.push_back(std::visit(LoadBuilder{body, model, scene.contact, rigid}, load));
+    scene.tractions.push_back(std::visit(LoadBuilder{body, model, scene.contact, rigid, inLargeDeformation(setup),
+                                                     setup.kinematics == Kinematics::Corotational}, load));
     const auto* weight = std::get_if<BodyForce>(&load);
     scene.loads_N.push_back(weight ? mechanics::bodyForce(body.mesh(), body.vectorToLocal(weight->N_per_m3))
                                    : nodalForces(body, scene.tractions.back()));

@@ -97,6 +97,45 @@ class Contact(unittest.TestCase):
             cli("run", write_scene(self.folder, {**BLOCK, "loads": [load]}), "--output", self.folder / "out", "--quiet",
                 code=3)
 
+    def test_a_bed_that_only_presses_lets_go(self):
+        beam = {"geometry": {"kind": "box", "size_mm": [60, 10, 10], "cell_mm": 2.5},
+                "material": {"youngs_kPa": 20, "poisson": 0.3}, "kinematics": "hyperelastic",
+                "outputs": [{"probe": [[60, 5, 5]]}]}
+        clamp = {"region": {"face": "x-"}, "kind": "fixed"}
+        bed = {"region": {"face": "z-"}, "kind": "spring", "stiffness_kPa_per_mm": 0.2, "unilateral": True}
+
+        def tip(up, *supports):
+            load = {"kind": "traction", "region": {"face": "z+"}, "kPa": [0, 0, up]}
+            r = self.run_scene({**beam, "supports": list(supports), "loads": [load]})
+            return r["probes"][0]["u_mm"][2]
+
+        free_up, free_down = tip(0.002, clamp), tip(-0.002, clamp)
+        self.assertAlmostEqual(tip(0.002, clamp, bed), free_up, delta=0.02 * free_up)
+        self.assertLess(abs(tip(-0.002, clamp, bed)), 0.3 * abs(free_down))
+        process = cli("run", write_scene(self.folder, {**beam, "kinematics": "linear", "supports": [clamp, bed],
+                                                       "loads": [{"kind": "body_force", "N_per_m3": [0, 0, -10]}]}),
+                      "--output", self.folder / "out", "--quiet", code=3)
+        self.assertIn("unilateral", process.stderr)
+
+    def test_a_pressure_that_follows_turns_with_its_face(self):
+        # A soft strip, pressed sideways on one face: a dead pressure bends it further than one that turns with it.
+        strip = {"geometry": {"kind": "box", "size_mm": [60, 6, 6], "cell_mm": 2},
+                 "material": {"youngs_kPa": 20, "poisson": 0.3}, "kinematics": "hyperelastic",
+                 "supports": [{"region": {"face": "x-"}, "kind": "fixed"}], "outputs": [{"probe": [[60, 3, 3]]}]}
+
+        def tip(kPa, follows):
+            load = {"kind": "pressure", "region": {"face": "z+"}, "kPa": kPa, "follows": follows}
+            r = self.run_scene({**strip, "loads": [load]})
+            self.assertTrue(r["solver"]["converged"])
+            return r["probes"][0]["u_mm"]
+
+        small = [tip(2e-5, follows)[2] for follows in (False, True)]
+        self.assertAlmostEqual(small[0], small[1], delta=0.01 * abs(small[0]))
+        dead, following = tip(0.004, False), tip(0.004, True)
+        self.assertLess(dead[2], 0)
+        # What turns with the strip pulls its end back as it bends: the tip goes further along x.
+        self.assertLess(following[0], dead[0])
+
 
 if __name__ == "__main__":
     unittest.main()
