@@ -313,6 +313,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
       linear.difference = comparison::compare(r.model, linear.primary, *linear.atlas, {});
     }
     if (r.primary.contact && linear.primary.solver.converged()) r.primary.linearGap = gapOf(r, linear.primary);
+    if (!linear.primary.solver.converged() || (linear.atlas && !linear.atlas->solver.converged())) return;
     r.linear = std::move(linear);
   });
 
