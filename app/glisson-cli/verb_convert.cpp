@@ -82,9 +82,8 @@ void addConvert(CLI::App& app, Context& context) {
       std::ostringstream text;
       if (std::filesystem::is_regular_file(a->in) && image::isVolumeFile(a->in)) {
         if (!a->series.empty()) warnings.push_back("a volume file holds no series: --series was not used");
-        Diagnostics doubts;
-        volume = image::readVolume(a->in, &doubts);
-        for (const std::string& w : doubts.texts(Severity::Warning)) warnings.push_back(w);
+        volume = image::readVolume(a->in, &diagnostics);
+        for (const std::string& w : diagnostics.texts(Severity::Warning)) warnings.push_back(w);
       } else {
         const dicom::ScanResult scan = dicom::scan(a->in, progress.part(0.0, 0.5));
         const dicom::Series& series = chosen(scan, a->series);
