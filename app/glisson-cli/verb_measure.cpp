@@ -116,6 +116,9 @@ int measure(const Arguments& a, const Context& context) {
   together.insert(together.end(), said.begin(), said.end());
   if (a.registration && !mre.map.unevenSlices_mm.empty())
     throw BadInput("a breath-hold correction needs evenly spaced slices, and the elastogram's are not");
+  if (!a.exclude.empty() && !mre.map.unevenSlices_mm.empty())
+    throw BadInput("a mask of what is left out needs evenly spaced slices, and the elastogram's are not; take it off the "
+                   "region of interest instead");
   Diagnostics diagnostics = mre.diagnostics;
   diagnostics.add(roi.diagnostics);
   if (mri) diagnostics.add(mri->diagnostics);
