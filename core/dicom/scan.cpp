@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <set>
 
@@ -8,7 +7,6 @@
 #include "dicom/archive.h"
 #include "dicom/directory.h"
 #include "dicom/image_header.h"
-#include "dicom/pixels.h"
 #include "dicom/reader_process.h"
 #include "dicom/roles.h"
 #include "dicom/series.h"
@@ -82,30 +80,9 @@ class FolderWalk {
   fs::path root_;
 };
 
-/// Whether two files hold the same pixels, value by value; false where either cannot be read.
-bool samePixels(const ImageHeader& a, const ImageHeader& b) {
-  if (a.rows != b.rows || a.columns != b.columns || a.frames.size() != b.frames.size() || a.samples != b.samples)
-    return false;
-  if (a.samples != 1) return true;  // pictures, never measured
-  try {
-    PixelReader one(a.file), other(b.file);
-    const std::size_t count = static_cast<std::size_t>(a.sliceRows()) * static_cast<std::size_t>(a.sliceColumns());
-    std::vector<float> x(count), y(count);
-    for (std::size_t f = 0; f < a.frames.size(); ++f) {
-      one.read(a.frames[f], x.data());
-      other.read(b.frames[f], y.data());
-      if (std::memcmp(x.data(), y.data(), count * sizeof(float)) != 0) return false;
-    }
-    return true;
-  } catch (const std::exception&) {
-    return false;
-  }
-}
-
-/// Drops copies of an image (same SOP instance at the same place with the same pixels). Where the pixels differ, which
-/// of the two was measured is not known: the series that holds them is refused.
+/// Drops copies of an image (same SOP instance at the same place).
 void dropCopies(std::vector<ImageHeader>& headers, std::vector<SkippedFile>& skipped) {
-  std::map<std::string, ImageHeader*> seen;
+  std::map<std::string, const ImageHeader*> seen;
   std::vector<ImageHeader> kept;
   kept.reserve(headers.size());  // so that the pointers in seen stay valid
   for (ImageHeader& h : headers) {
@@ -117,12 +94,6 @@ void dropCopies(std::vector<ImageHeader>& headers, std::vector<SkippedFile>& ski
     }
     const Frame& a = known->second->frames.front();
     if ((a.position_lps_mm - h.frames.front().position_lps_mm).norm() < 1e-3) {
-      if (!samePixels(*known->second, h)) {
-        skipped.push_back({h.file, "holds other pixels than '" + known->second->file.filename().string() +
-                                       "', though it has the same SOP instance and position"});
-        known->second->contradicted = h.file;
-        continue;
-      }
       skipped.push_back(
           {h.file, "is a copy of '" + known->second->file.filename().string() + "' (same SOP instance and position)"});
     } else {
@@ -162,8 +133,7 @@ ScanResult scanFiles(const std::vector<fs::path>& files, ScanResult result, cons
   for (auto& [uid, headers] : bySeries) {
     dropCopies(headers, result.skipped);
     std::vector<Series> volumes = buildVolumes(headers);
-    checkCounts(headers, volumes);
-    setRoles(volumes);
+    setRoles(volumes, headers.front());
     const auto incomplete = refused.find(uid);
     for (Series& s : volumes) {
       if (incomplete != refused.end() && !s.error)

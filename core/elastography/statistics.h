@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostic.h"
 #include "elastography/stiffness_map.h"
 
 namespace glisson::elastography {
@@ -55,9 +54,7 @@ struct Measurement {
   std::size_t notFinite = 0;            ///< left out: not finite
   std::size_t notPositive = 0;          ///< left out: ≤ 0
   std::size_t lowConfidence = 0;        ///< left out: finite, > 0, below the threshold
-  std::size_t noConfidence = 0;         ///< left out: finite, > 0, where the confidence map says nothing
-  std::vector<std::string> warnings;    ///< "Pa or kPa?", most voxels left out; texts of diagnostics among them
-  Diagnostics diagnostics;
+  std::vector<std::string> warnings;    ///< "Pa or kPa?", most voxels left out
 };
 
 /// Stiffness statistics inside a region of interest given on the map's own grid.

@@ -47,22 +47,6 @@ Json contactToJson(const retraction::RigidContact& c) {
           {"path", path}};
 }
 
-Json gapToJson(const retraction::LinearGap& gap) {
-  Json j;
-  j["known"] = gap.known;
-  j["stable"] = gap.stability == mechanics::Stability::Unknown ? Json(nullptr)
-                                                               : Json(gap.stability == mechanics::Stability::Stable);
-  if (!gap.known) {
-    j["why"] = gap.why;
-    return j;
-  }
-  j["mean"] = gap.mean_mm;
-  j["max"] = gap.max_mm;
-  if (gap.at_retractor_mm) j["at_retractor"] = *gap.at_retractor_mm;
-  if (gap.landmarks_max_mm) j["landmarks_max"] = *gap.landmarks_max_mm;
-  return j;
-}
-
 Json resultToJson(const retraction::Result& r, const Scene& scene) {
   Json j;
   j["solver"] = solverToJson(r.solver);
@@ -80,8 +64,7 @@ Json resultToJson(const retraction::Result& r, const Scene& scene) {
   j["max_rotation_deg"] = r.max_rotation_deg;
   j["max_displacement_mm"] = r.max_displacement_mm;
   j["linear_valid"] = r.linearTrusted;
-  j["kinematics_valid"] = retraction::kinematicsValid(r);
-  if (r.linearGap) j["linear_gap_mm"] = gapToJson(*r.linearGap);
+  j["kinematics_valid"] = r.linearTrusted;
   j["drawable"] = r.drawable;
   j["validity"] = r.validity;
   if (r.retractorPoint_mm) {
@@ -257,15 +240,6 @@ Motion motionOf(const retraction::Model& model, const retraction::Result& result
     ++cells;
   }
   if (cells > 0) m.mean_mm /= static_cast<double>(cells);
-  if (result.contact) {
-    double area = 0.0;
-    for (std::size_t i = 0; i < result.contact->sample_mm.size(); ++i) {
-      if (!(result.contact->pressure_kPa[i] > 0.0)) continue;
-      m.at_retractor_mm += result.contact->sample_mm2[i] * result.contact->sample_u_mm[i].norm();
-      area += result.contact->sample_mm2[i];
-    }
-    if (area > 0.0) m.at_retractor_mm /= area;
-  }
   for (const int node : result.contactNodes)
     m.at_retractor_mm += 1e3 * result.nodal_u_m.col(node).norm() / static_cast<double>(result.contactNodes.size());
   return m;
