@@ -195,7 +195,7 @@ class Scene3D : public QObject, private glisson::test::WindowBench {
     const auto laid = session().parameters();
     const auto bar = writtenBar();
     QVERIFY(*bar.at_mm == *laid.placement.barAt_lps);
-    QVERIFY((bar.axis - laid.placement.barAxis).norm() < 1e-12);
+    QVERIFY((*bar.axis - laid.placement.barAxis).norm() < 1e-12);
     QVERIFY((bar.direction - laid.placement.hoistDirection).norm() < 1e-12);
     QCOMPARE(bar.length_mm, laid.retractorLength_mm);
     const auto scene = glisson::pipeline::readScene(folder() / "placed" / "scene.json");

@@ -176,7 +176,8 @@ void place(const pipeline::Scene& scene, const retraction::Model& model, const i
     if (!bar) continue;
     tools::BarPlace at;
     at.direction = bar->direction.normalized();
-    at.axis = (bar->axis - bar->axis.dot(at.direction) * at.direction).normalized();
+    const Eigen::Vector3d axis = bar->patchAxis();
+    at.axis = (axis - axis.dot(at.direction) * at.direction).normalized();
     at.diameter_mm = bar->diameter_mm;
     at.length_mm = bar->length_mm;
     try {
