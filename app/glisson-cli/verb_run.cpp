@@ -32,6 +32,7 @@ std::string summary(const pipeline::RunResult& r) {
     t << "difference  mean " << r.difference->mean_mm << " mm, 95 % below " << r.difference->p95_mm << " mm, max "
       << r.difference->max_mm << " mm, at the retractor " << r.difference->at_retractor_mm << " mm"
       << (r.difference->clinically_significant ? " (clinically significant)" : "") << "\n";
+  for (const std::string& d : r.diagnostics.texts()) t << "warning     " << d << "\n";
   for (const std::string& w : r.warnings) t << "warning     " << w << "\n";
   for (const auto& f : r.files) t << "written     " << f.string() << "\n";
   return t.str();
@@ -64,7 +65,9 @@ void addRun(CLI::App& app, Context& context) {
       if (!r.primary.solver.converged() || (r.atlas && !r.atlas->solver.converged())) {
         std::cerr << "glisson-cli: the solve did not converge (" << r.primary.solver.kind << ", residual "
                   << r.primary.solver.residual << "); its result is marked and not drawn: "
-                  << (scene.setup.kinematics == retraction::Kinematics::Linear
+                  << (r.diagnostics.contains(DiagnosticCode::RetractorSlips)
+                          ? "the bar slips; choose another place or a smaller force"
+                      : r.primary.kinematics == retraction::Kinematics::Linear
                           ? "raise \"iterations\" or use solver \"auto\""
                           : "this load folds the body; lower it, spread it or stiffen the supports")
                   << std::endl;

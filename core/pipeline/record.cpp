@@ -240,6 +240,15 @@ Motion motionOf(const retraction::Model& model, const retraction::Result& result
     ++cells;
   }
   if (cells > 0) m.mean_mm /= static_cast<double>(cells);
+  if (result.contact) {
+    double area = 0.0;
+    for (std::size_t i = 0; i < result.contact->sample_mm.size(); ++i) {
+      if (!(result.contact->pressure_kPa[i] > 0.0)) continue;
+      m.at_retractor_mm += result.contact->sample_mm2[i] * result.contact->sample_u_mm[i].norm();
+      area += result.contact->sample_mm2[i];
+    }
+    if (area > 0.0) m.at_retractor_mm /= area;
+  }
   for (const int node : result.contactNodes)
     m.at_retractor_mm += 1e3 * result.nodal_u_m.col(node).norm() / static_cast<double>(result.contactNodes.size());
   return m;

@@ -37,10 +37,16 @@ void results(Page& page, const RunResult& r) {
     if (r.discretisation && r.discretisation->difference && r.discretisation->difference->at_retractor_mm)
       rows.emplace_back("At the retractor, error from the size of the cells",
                         "about " + number(*r.discretisation->difference->at_retractor_mm) + " mm");
+    if (d.travel_mm) rows.emplace_back("Travel of the bar, measured less textbook", number(*d.travel_mm) + " mm");
     if (!d.vessel_mm.empty()) {
       rows.emplace_back("Vessel landmarks, mean", number(d.vesselMean_mm) + " mm");
       rows.emplace_back("Vessel landmarks 5 mm or more apart", number(100 * d.vesselFractionBeyond, 3) + " %");
     }
+  }
+  if (r.primary.contact) {
+    const retraction::RigidContact& c = *r.primary.contact;
+    rows.emplace_back("Bar", number(c.force_N.norm(), 3) + " N, after " + number(c.travel_mm, 3) + " mm" +
+                                 (c.slipped ? "; then it slips" : ""));
   }
   const Motion motion = motionOf(r.model, r.primary);
   rows.emplace_back("Displacement, mean", number(motion.mean_mm) + " mm");
@@ -97,6 +103,7 @@ void trust(Page& page, const RunResult& r) {
     page.paragraph("The discretisation error of this run was not estimated.");
   }
   listed(page, r.warnings);
+  listed(page, r.diagnostics.texts());
 }
 
 std::string verdict(const retraction::Result& r) {

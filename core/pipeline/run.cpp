@@ -146,7 +146,7 @@ void requireMemory(const std::vector<PlanStep>& plan) {
 std::string whyKinematics(const Scene& scene, const retraction::Result& r) {
   if (scene.setup.kinematics != retraction::Kinematics::Auto) return "the scene asks for them";
   return r.contact ? "the bar turns and strains the tissue beyond linear theory"
-                   : "no bar moves through the body";
+                   : "there is no rigid bar, and linear is what \"auto\" means without one";
 }
 
 std::string_view wordOf(bool atlas) {
@@ -280,6 +280,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
                                                   : retraction::simulate(atlasModel, inLinearTheory, scene.outputs.probes_mm, p.part(0.5, 1.0));
       linear.difference = comparison::compare(r.model, linear.primary, *linear.atlas, {});
     }
+    if (!linear.primary.solver.converged() || (linear.atlas && !linear.atlas->solver.converged())) return;
     r.linear = std::move(linear);
   });
 

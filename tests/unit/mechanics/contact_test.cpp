@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "mechanics/contact/contact_setup.h"
 #include "mechanics/hyperelastic.h"
@@ -259,7 +260,7 @@ TEST(RigidBarContact, ABarThatMeetsNothingIsRefused) {
   ContactProblem p = comparedBlock(10);
   p.bar->centreline_m = {{0.5, 0.09, 0.05}, {0.6, 0.09, 0.05}};
   p.force_N = 1.0;
-  EXPECT_THROW(solveContact(p), std::exception);
+  EXPECT_THROW(solveContact(p), BadInput);
 }
 
 TEST(RigidBarContact, ABentBladeBearsItsForceToo) {
