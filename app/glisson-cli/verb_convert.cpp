@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "diagnostics_json.h"
 #include "dicom/series.h"
 #include "image/io.h"
 #include "verbs.h"
@@ -53,6 +54,16 @@ const dicom::Series& chosen(const dicom::ScanResult& scan, const std::string& as
                  (byUid ? "UID" : "number, role or UID") + ": " + list);
 }
 
+/// The values of a map with not-a-number where it holds none; of every other image as they are.
+image::ScalarVolume read(const dicom::Series& series, Diagnostics& said, const Progress& progress) {
+  if (series.role != dicom::SeriesRole::Stiffness && series.role != dicom::SeriesRole::Confidence)
+    return dicom::readSeries(series, progress);
+  dicom::ReadMap map = dicom::readMap(series, progress);
+  if (map.padding > 0) said.add(DiagnosticCode::PaddingLeftOut, {{"voxels", map.padding}});
+  if (map.outsideRange > 0) said.add(DiagnosticCode::OutsideMappedRange, {{"voxels", map.outsideRange}});
+  return std::move(map.values);
+}
+
 }  // namespace
 
 void addConvert(CLI::App& app, Context& context) {
@@ -66,16 +77,21 @@ void addConvert(CLI::App& app, Context& context) {
       const Progress progress = context.progress();
       image::ScalarVolume volume;
       std::vector<std::string> warnings;
+      Diagnostics diagnostics;
       Json j;
       std::ostringstream text;
       if (std::filesystem::is_regular_file(a->in) && image::isVolumeFile(a->in)) {
         if (!a->series.empty()) warnings.push_back("a volume file holds no series: --series was not used");
-        volume = image::readVolume(a->in);
+        volume = image::readVolume(a->in, &diagnostics);
+        for (const std::string& w : diagnostics.texts(Severity::Warning)) warnings.push_back(w);
       } else {
         const dicom::ScanResult scan = dicom::scan(a->in, progress.part(0.0, 0.5));
         const dicom::Series& series = chosen(scan, a->series);
-        volume = dicom::readSeries(series, progress.part(0.5, 1.0));
+        volume = read(series, diagnostics, progress.part(0.5, 1.0));
         warnings = series.warnings;
+        const std::vector<std::string> more = diagnostics.texts();
+        warnings.insert(warnings.end(), more.begin(), more.end());
+        diagnostics.add(series.diagnostics);
         j["series"] = {{"uid", series.uid},
                        {"number", series.number},
                        {"role", name(series.role)},
@@ -83,6 +99,7 @@ void addConvert(CLI::App& app, Context& context) {
         j["series_found"] = scan.series.size();
         text << "series " << shown(series, false) << " taken of " << scan.series.size() << " found\n";
       }
+      refuseIfStrict(context, diagnostics, warnings);
       image::writeVolume(a->out, volume);
       const image::Grid& g = volume.grid;
       j["slices"] = g.size.z();
@@ -91,6 +108,7 @@ void addConvert(CLI::App& app, Context& context) {
       j["spacing_mm"] = {g.spacing_mm.x(), g.spacing_mm.y(), g.spacing_mm.z()};
       j["origin_lps_mm"] = {g.origin_lps_mm.x(), g.origin_lps_mm.y(), g.origin_lps_mm.z()};
       j["warnings"] = warnings;
+      j["diagnostics"] = diagnosticsJson(diagnostics, warnings);
       text << g.size.x() << " x " << g.size.y() << " x " << g.size.z() << " voxels of (" << g.spacing_mm.transpose()
            << ") mm written to " << a->out.string() << "\n";
       for (const std::string& w : warnings) text << "warning: " << w << "\n";

@@ -33,7 +33,10 @@ int serveScene(const Arguments& a, const Context& context) {
   const live::ServerStatistics s = live::serve(
       mre, atlas ? &*atlas : nullptr, watched, options,
       [&](int port) {
-        context.note("OpenIGTLink on port " + std::to_string(port) + ", " + std::to_string(watched.size()) +
+        context.note("OpenIGTLink on " + options.bind + ", port " + std::to_string(port) +
+                     (options.bind == "127.0.0.1" ? " (this computer alone; --bind opens it to a network), "
+                                                  : " (whoever reaches it can connect: there is no password), ") +
+                     std::to_string(watched.size()) +
                      " landmarks; Ctrl+C ends");
       },
       progress);
@@ -59,6 +62,7 @@ void addLive(CLI::App& app, Context& context) {
   auto a = std::make_shared<Arguments>();
   verb->add_option("scene", a->scene, "scene.json or case.json with a retractor")->required();
   verb->add_option("--port", a->options.port, "0 = any free one")->check(CLI::Range(0, 65535));
+  verb->add_option("--bind", a->options.bind, "address to listen on; 0.0.0.0 = every network of this computer");
   verb->add_option("--rate", a->options.rate_hz, "frames a second");
   verb->add_option("--landmarks", a->options.landmarks, "landmarks sent at most");
   verb->add_option("--frames", a->options.frames, "end after so many; 0 = run until Ctrl+C");

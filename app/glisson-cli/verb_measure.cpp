@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
 
 #include "base/error.h"
+#include "diagnostics_json.h"
 #include "image/io.h"
+#include "image/morphology.h"
 #include "image/resample.h"
 #include "pipeline/breath_hold.h"
 #include "pipeline/region_file.h"
@@ -23,7 +26,7 @@ struct Arguments {
   std::optional<int> label;
   int erosion_pixels = 0;
   double erosion_mm = 0.0;
-  std::optional<double> confidence;
+  std::optional<double> confidence, confidenceScale;
   double poisson = 0.5;
 };
 
@@ -55,6 +58,20 @@ Json toJson(const elastography::Registration& r) {
           {"similarity_after", r.similarityAfter}};
 }
 
+/// The series that were used, by uid.
+Json sourcesOf(const pipeline::LoadedStiffness& mre) {
+  const auto uid = [&mre](int i) {
+    return i < 0 ? Json(nullptr) : Json(mre.scan->series[static_cast<std::size_t>(i)].uid);
+  };
+  return {{"stiffness", uid(mre.acquisition.stiffness)},
+          {"confidence", uid(mre.acquisition.confidence)},
+          {"magnitude", uid(mre.acquisition.magnitude)}};
+}
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
 /// Where nothing can be measured, what is odd about the region's place is the likely reason.
 elastography::Measurement measured(const elastography::StiffnessMap& map, const elastography::MappedRoi& mapped,
                                    const elastography::MeasureOptions& options) {
@@ -72,13 +89,17 @@ int measure(const Arguments& a, const Context& context) {
     meaning.quantity = a.quantity == "shear" ? StiffnessQuantity::Shear : StiffnessQuantity::Youngs;
   if (!a.unit.empty()) meaning.unit = a.unit;
   meaning.roles = rolesFrom(a.roles);
+  meaning.mayBeUneven = true;
   const Progress progress = context.progress();
-  pipeline::LoadedStiffness mre = pipeline::loadStiffness(a.mre, meaning, progress.part(0.0, 0.6));
+  meaning.confidenceScale = a.confidenceScale;
   if (!a.label)
     if (const std::string labels = pipeline::severalLabels(a.roi); !labels.empty())
       throw BadInput("'" + a.roi.filename().string() + "' holds the labels " + labels +
                      ": choose the region's with --label (0 takes all of them together)");
-  const pipeline::LoadedRoi roi = pipeline::loadRoi(a.roi, a.name, a.label.value_or(0), progress.part(0.6, 0.8));
+  // The region first: it says which images it was drawn on.
+  const pipeline::LoadedRoi roi = pipeline::loadRoi(a.roi, a.name, a.label.value_or(0), progress.part(0.0, 0.2));
+  meaning.outlined = roi.names;
+  pipeline::LoadedStiffness mre = pipeline::loadStiffness(a.mre, meaning, progress.part(0.2, 0.8));
   if (a.registration && a.mri.empty()) throw BadInput("a breath-hold correction needs the image to fit to: give --mri");
   std::optional<image::Grid> mriGrid;
   std::optional<elastography::Registration> registration;
@@ -86,13 +107,25 @@ int measure(const Arguments& a, const Context& context) {
   std::vector<std::vector<std::string>> rolesNotFound = {mre.rolesNotFound};
   std::optional<pipeline::AnatomicalImage> mri;
   if (!a.mri.empty()) {
-    mri = pipeline::loadImage(a.mri, progress.part(0.8, 0.9), meaning.roles);
+    mri = pipeline::loadImage(a.mri, progress.part(0.8, 0.9), meaning.roles, roi.names);
     mriGrid = mri->volume.grid;
     together = pipeline::checkTogether(*mri, mre, a.overrideChecks);
     rolesNotFound.push_back(mri->rolesNotFound);
   }
   const auto said = pipeline::checkRoi(roi, mri ? &*mri : nullptr, &mre, a.overrideChecks);
   together.insert(together.end(), said.begin(), said.end());
+  if (a.registration && !mre.map.unevenSlices_mm.empty())
+    throw BadInput("a breath-hold correction needs evenly spaced slices, and the elastogram's are not");
+  if (!a.exclude.empty() && !mre.map.unevenSlices_mm.empty())
+    throw BadInput("a mask of what is left out needs evenly spaced slices, and the elastogram's are not; take it off the "
+                   "region of interest instead");
+  Diagnostics diagnostics = mre.diagnostics;
+  diagnostics.add(roi.diagnostics);
+  if (mri) diagnostics.add(mri->diagnostics);
+  if (mri) append(together, mri->diagnostics.texts(Severity::Warning));
+  const Diagnostics doubts = pipeline::doubtsAboutOutline(roi, mri ? &*mri : nullptr, &mre);
+  diagnostics.add(doubts);
+  append(together, doubts.texts());
   if (a.registration) registration = pipeline::fitToMri(mre, a.mre, a.magnitude, mri->volume, progress.part(0.9, 1.0));
   pipeline::checkRolesFound(meaning.roles, rolesNotFound);
   const elastography::MappedRoi mapped = pipeline::mapRoi(roi, mriGrid, mre.map);
@@ -105,8 +138,13 @@ int measure(const Arguments& a, const Context& context) {
   options.erosion_mm = a.erosion_mm;
   std::optional<image::Mask> excluded;
   if (!a.exclude.empty()) {
-    excluded = image::resampleNearest(image::readMask(a.exclude), mre.map.values_kPa.grid);
+    Diagnostics about;
+    excluded = image::resampleNearest(image::readMask(a.exclude, 0, &about), mre.map.values_kPa.grid);
     options.exclude = &*excluded;
+    if (!image::overlap(*excluded, mapped.mask)) about.add(DiagnosticCode::ExclusionElsewhere);
+    diagnostics.add(about);
+    for (const std::string& w : about.texts(Severity::Warning))
+      if (std::find(mre.warnings.begin(), mre.warnings.end(), w) == mre.warnings.end()) mre.warnings.push_back(w);
   }
   options.poisson = a.poisson;
   const elastography::Measurement m = measured(mre.map, mapped, options);
@@ -130,12 +168,20 @@ int measure(const Arguments& a, const Context& context) {
   j["shear_mean_kPa"] = orNull(m.shear_mean_kPa);
   j["poisson"] = m.poisson;
   j["roi_coverage"] = mapped.coverage;
-  j["left_out"] = {{"not_finite", m.notFinite}, {"not_positive", m.notPositive}, {"low_confidence", m.lowConfidence}};
+  j["left_out"] = {{"not_finite", m.notFinite},
+                   {"not_positive", m.notPositive},
+                   {"low_confidence", m.lowConfidence},
+                   {"no_confidence", m.noConfidence}};
+  if (mre.scan) j["sources"] = sourcesOf(mre);
   std::vector<std::string> warnings = mre.warnings;
   for (const std::vector<std::string>* more :
        std::initializer_list<const std::vector<std::string>*>{&together, &roi.warnings, &mapped.warnings, &m.warnings})
     warnings.insert(warnings.end(), more->begin(), more->end());
   j["warnings"] = warnings;
+  diagnostics.add(mapped.diagnostics);
+  diagnostics.add(m.diagnostics);
+  j["diagnostics"] = diagnosticsJson(diagnostics, warnings);
+  refuseIfStrict(context, diagnostics, warnings);
 
   std::ostringstream text;
   text.precision(4);
@@ -170,9 +216,14 @@ void addMeasure(CLI::App& app, Context& context) {
   verb->add_option("--role", a->roles, "series=role, set by hand: UID or number, and stiffness, confidence ...");
   verb->add_flag("--override", a->overrideChecks,
                  "take MRI, elastogram and region of other days or patients nevertheless");
-  verb->add_option("--label", a->label, "label of a mask, 0 = any; must be given where there are several");
-  verb->add_option("--name", a->name, "structure of an RT Structure Set");
+  verb->add_option(
+      "--label", a->label,
+      "label of a mask, 0 = any; must be given where there are several; or number of a structure or segment");
+  verb->add_option("--name", a->name, "structure of an RT Structure Set, or its number as #2");
   verb->add_option("--confidence", a->confidence, "voxels below are left out, 0 to 1")->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--confidence-scale", a->confidenceScale,
+                   "stored value of the confidence map that means full confidence, where the map does not tell")
+      ->check(CLI::PositiveNumber);
   verb->add_option("--erode,--erode-px", a->erosion_pixels, "inner region of interest: pixels to take off the border")
       ->check(CLI::Range(0, 100));
   verb->add_option("--erode-mm", a->erosion_mm, "the same in millimetres from the outline")

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/sha256.h"
 #include "pipeline/pictures.h"
+#include "pipeline/replay.h"
 #include "render/backend.h"
 #include "verbs.h"
 
@@ -51,6 +52,11 @@ void addRender(CLI::App& app, Context& context) {
       for (const std::string& camera : a->cameras) o.cameras.push_back(pipeline::cameraFromText(camera));
       readSize(a->size, o);
       o.dpi = a->dpi;
+      if (const auto record = a->run / "run.json"; std::filesystem::exists(record))
+        for (const std::string& name : pipeline::filesOfAnotherRun(record))
+          if (name == pipeline::pictureFileName)
+            throw BadInput("the pictures' data in this folder are not those of its run.json: another run has written "
+                           "into it; run the scene again into a folder of its own");
       const pipeline::PictureData data = pipeline::readPictureFile(a->run / pipeline::pictureFileName);
       if (!data.scene.valid)
         throw BadInput("this run did not converge, or gave no deformation: it is not drawn; see run.json");

@@ -35,6 +35,7 @@ void addReplay(CLI::App& app, Context& context) {
                                       : "differs")
              << "\n";
       }
+      j["changed"] = r.changed;
       j["notes"] = r.notes;
       for (const std::string& note : r.notes) text << "note        " << note << "\n";
       context.print(j, text.str());

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "diagnostics_json.h"
 #include "pipeline/run.h"
 #include "render/backend.h"
 #include "verbs.h"
@@ -21,6 +22,9 @@ std::string summary(const pipeline::RunResult& r) {
     << "load        (" << p.load_N.transpose() << ") N, reaction (" << p.reaction_N.transpose() << ") N\n"
     << "strain      max " << p.max_strain << ", 95 % below " << p.p95_strain << "; largest rotation "
     << p.max_rotation_deg << " deg\n";
+  if (p.contact)
+    t << "bar         travels " << p.contact->travel_mm << " mm and bears " << p.contact->force_N.norm() << " N over "
+      << p.contact->footprint_mm2 << " mm2" << (p.contact->slipped ? ", then slips" : "") << "\n";
   if (p.linearTrusted)
     t << "validity    "
       << (p.kinematics == retraction::Kinematics::Linear ? "linear theory can be trusted here"
@@ -32,10 +36,16 @@ std::string summary(const pipeline::RunResult& r) {
     t << "difference  mean " << r.difference->mean_mm << " mm, 95 % below " << r.difference->p95_mm << " mm, max "
       << r.difference->max_mm << " mm, at the retractor " << r.difference->at_retractor_mm << " mm"
       << (r.difference->clinically_significant ? " (clinically significant)" : "") << "\n";
-  for (const std::string& d : r.diagnostics.texts()) t << "warning     " << d << "\n";
+  if (r.difference && r.difference->travel_mm)
+    t << "            travel of the bar " << *r.difference->travel_mm << " mm (measured less atlas)\n";
+  for (const std::string& d : r.diagnostics.texts()) t << "diagnosis   " << d << "\n";
   for (const std::string& w : r.warnings) t << "warning     " << w << "\n";
   for (const auto& f : r.files) t << "written     " << f.string() << "\n";
   return t.str();
+}
+
+bool slipped(const pipeline::RunResult& r) {
+  return (r.primary.contact && r.primary.contact->slipped) || (r.atlas && r.atlas->contact && r.atlas->contact->slipped);
 }
 
 }  // namespace
@@ -62,14 +72,16 @@ void addRun(CLI::App& app, Context& context) {
       options.palette = *colourBlind ? render::Palette::ColourBlind : render::Palette::RedBlue;
       const pipeline::RunResult r = pipeline::run(scene, options, context.progress());
       context.print(Json::parse(r.json), summary(r));
+      refuseIfStrict(context, r.diagnostics, r.warnings);
       if (!r.primary.solver.converged() || (r.atlas && !r.atlas->solver.converged())) {
         std::cerr << "glisson-cli: the solve did not converge (" << r.primary.solver.kind << ", residual "
                   << r.primary.solver.residual << "); its result is marked and not drawn: "
-                  << (r.diagnostics.contains(DiagnosticCode::RetractorSlips)
-                          ? "the bar slips; choose another place or a smaller force"
-                      : r.primary.kinematics == retraction::Kinematics::Linear
-                          ? "raise \"iterations\" or use solver \"auto\""
-                          : "this load folds the body; lower it, spread it or stiffen the supports")
+                  << (slipped(r) ? "the bar slips; choose another place or a smaller force"
+                      : r.primary.kinematics != retraction::Kinematics::Linear
+                          ? "this load folds the body; lower it, spread it or stiffen the supports"
+                      : scene.setup.solver.kind == mechanics::SolverKind::Auto
+                          ? "use smaller cells, less contrast between the moduli or a smaller Poisson's ratio"
+                          : "raise \"iterations\" or use solver \"auto\"")
                   << std::endl;
         return NotConverged;
       }

@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <sstream>
 
 #include "base/error.h"
+#include "diagnostics_json.h"
+#include "dicom/acquisitions.h"
 #include "dicom/series.h"
 #include "dicom/thumbnail.h"
 #include "render/picture.h"
@@ -38,11 +41,54 @@ Json toJson(const dicom::Series& s) {
   if (s.vibration_Hz) j["vibration_Hz"] = *s.vibration_Hz;
   j["lossy"] = s.lossy;
   j["warnings"] = s.warnings;
+  j["diagnostics"] = diagnosticsJson(s.diagnostics, s.warnings);
+  if (s.quantity) j["quantity"] = dicom::inWords(*s.quantity);
   if (s.error) {
     j["warnings"].push_back("cannot be used as a volume: " + *s.error);
     j["error"] = *s.error;
   }
   return j;
+}
+
+/// What belongs together, by the uid of its series; null where there is none.
+Json toJson(const dicom::Acquisition& a, const dicom::ScanResult& found) {
+  const auto uid = [&found](int i) {
+    return i < 0 ? Json(nullptr) : Json(found.series[static_cast<std::size_t>(i)].uid);
+  };
+  Json wave = Json::array(), others = Json::array();
+  for (const int w : a.wave) wave.push_back(uid(w));
+  for (const int s : a.otherStiffness) others.push_back(uid(s));
+  Json products = {{"magnitude", uid(a.magnitude)},
+                   {"wave", wave},
+                   {"stiffness", uid(a.stiffness)},
+                   {"confidence", uid(a.confidence)}};
+  if (!others.empty()) products["other_stiffness"] = others;
+  return {{"products", products},
+          {"why", a.why},
+          {"warnings", a.diagnostics.texts(Severity::Warning)},
+          {"diagnostics", diagnosticsJson(a.diagnostics)}};
+}
+
+/// Patients and their studies as indices into the list of series; nothing that says who they are.
+Json patientsOf(const dicom::ScanResult& found) {
+  std::vector<std::pair<std::string, std::vector<std::pair<std::string, Json>>>> patients;
+  for (std::size_t i = 0; i < found.series.size(); ++i) {
+    const dicom::Series& s = found.series[i];
+    auto patient =
+        std::find_if(patients.begin(), patients.end(), [&](const auto& p) { return p.first == s.patientKey; });
+    if (patient == patients.end()) patient = patients.insert(patients.end(), {s.patientKey, {}});
+    auto& studies = patient->second;
+    auto study = std::find_if(studies.begin(), studies.end(), [&](const auto& t) { return t.first == s.studyUid; });
+    if (study == studies.end()) study = studies.insert(studies.end(), {s.studyUid, Json::array()});
+    study->second.push_back(i);
+  }
+  Json all = Json::array();
+  for (const auto& [key, studies] : patients) {
+    Json list = Json::array();
+    for (const auto& [uid, series] : studies) list.push_back({{"series", series}});
+    all.push_back({{"studies", list}});
+  }
+  return all;
 }
 
 /// Writes a picture named after the place in the list, the series number and the role: nothing of the patient.
@@ -89,6 +135,22 @@ int scan(const Arguments& a, const Context& context) {
     j["skipped"].push_back({{"file", f.file.string()}, {"reason", f.reason}});
     text << "skipped " << f.file.string() << ": " << f.reason << "\n";
   }
+  Diagnostics all;
+  std::vector<std::string> warnings;
+  for (const dicom::Series& s : found.series) {
+    all.add(s.diagnostics);
+    warnings.insert(warnings.end(), s.warnings.begin(), s.warnings.end());
+    if (s.error) warnings.push_back("series " + std::to_string(s.number) + " cannot be used as a volume: " + *s.error);
+  }
+  j["acquisitions"] = Json::array();
+  for (const dicom::Acquisition& one : dicom::acquisitions(found)) {
+    j["acquisitions"].push_back(toJson(one, found));
+    all.add(one.diagnostics);
+    for (const std::string& w : one.diagnostics.texts(Severity::Warning)) text << "warning: " << w << "\n";
+  }
+  j["patients"] = patientsOf(found);
+  j["diagnostics"] = diagnosticsJson(all, warnings);
+  refuseIfStrict(context, all, warnings);
   if (found.series.empty()) text << "no image series found\n";
   context.print(j, text.str());
   return Ok;

@@ -28,6 +28,7 @@ struct Context {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
+  bool strict = false;  ///< warnings are refusals
   int threads = 0;
   std::uint64_t seed = 1;
   bool seedGiven = false;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
-#include <set>
+#include <optional>
 #include <vector>
 
 #include "anatomy/detail/surface_formats.h"
@@ -13,34 +14,97 @@
 namespace glisson::anatomy {
 namespace {
 
-/// Points at the same place become one; triangles without area and repeated ones go; so do points that none names.
-void tidy(TriangleMesh& mesh) {
-  std::map<std::array<double, 3>, int> place;
-  std::vector<int> to(static_cast<std::size_t>(mesh.vertices_lps_mm.cols()), -1);
+/// Part of the size of a surface within which two points are one: single precision, and seams computed twice.
+constexpr double samePlace = 1e-6;
+
+/// Gives points that lie within a distance of an earlier one that one's number.
+class Places {
+ public:
+  /// within 0: equal coordinates only.
+  explicit Places(double within) : within_(within) {}
+
+  int of(const Eigen::Vector3d& p) {
+    const Eigen::Vector3d scaled = within_ > 0.0 ? (p / within_).array().floor().matrix().eval() : p;
+    std::array<double, 3> cell{scaled.x() + 0.0, scaled.y() + 0.0, scaled.z() + 0.0};  // no negative zero
+    for (int n = within_ > 0.0 ? 0 : 13; n < (within_ > 0.0 ? 27 : 14); ++n) {
+      const std::array<double, 3> at{cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1};
+      const auto found = cells_.find(at);
+      if (found == cells_.end()) continue;
+      for (const int id : found->second)
+        if ((points[static_cast<std::size_t>(id)] - p).norm() <= within_) return id;
+    }
+    cells_[cell].push_back(static_cast<int>(points.size()));
+    points.push_back(p);
+    return static_cast<int>(points.size()) - 1;
+  }
+
   std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector3i> kept;
-  std::set<std::array<int, 3>> seen;
+
+ private:
+  double within_;
+  std::map<std::array<double, 3>, std::vector<int>> cells_;
+};
+
+enum class Walls { KeepOne, CancelOpposite };
+
+/// Triangles without area go, so do points that none names. Of triangles with the same corners one stays, or, where two
+/// of them are turned against each other (the wall between bodies that touch), none.
+TriangleMesh tidied(const TriangleMesh& mesh, double within_mm, Walls walls) {
+  Places places(within_mm);
+  std::vector<int> to(static_cast<std::size_t>(mesh.vertices_lps_mm.cols()), -1);
+  std::map<std::array<int, 3>, std::array<std::optional<Eigen::Vector3i>, 2>> kept;  // by corners: either turn
+  std::vector<std::array<int, 3>> order;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     Eigen::Vector3i c = mesh.triangles.col(t);
     for (int a = 0; a < 3; ++a) {
       int& n = to[static_cast<std::size_t>(c[a])];
-      if (n < 0) {
-        const Eigen::Vector3d p = mesh.vertices_lps_mm.col(c[a]);
-        const auto [at, fresh] = place.emplace(std::array{p.x(), p.y(), p.z()}, static_cast<int>(points.size()));
-        if (fresh) points.push_back(p);
-        n = at->second;
-      }
+      if (n < 0) n = places.of(mesh.vertices_lps_mm.col(c[a]));
       c[a] = n;
     }
     if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
     std::array<int, 3> key{c[0], c[1], c[2]};
     std::sort(key.begin(), key.end());
-    if (seen.insert(key).second) kept.push_back(c);
+    const bool turned = (c[0] < c[1]) + (c[1] < c[2]) + (c[2] < c[0]) == 1;
+    auto& there = kept[key];
+    if (!there[0] && !there[1]) order.push_back(key);
+    std::optional<Eigen::Vector3i>& turn = turned ? there[1] : there[0];
+    if (!turn) turn = c;
   }
-  mesh.vertices_lps_mm.resize(3, static_cast<Eigen::Index>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) mesh.vertices_lps_mm.col(static_cast<Eigen::Index>(i)) = points[i];
-  mesh.triangles.resize(3, static_cast<Eigen::Index>(kept.size()));
-  for (std::size_t i = 0; i < kept.size(); ++i) mesh.triangles.col(static_cast<Eigen::Index>(i)) = kept[i];
+  std::vector<Eigen::Vector3i> triangles;
+  for (const auto& key : order) {
+    const auto& [one, other] = kept[key];
+    if (one && other && walls == Walls::CancelOpposite) continue;
+    triangles.push_back(one ? *one : *other);
+  }
+  std::vector<int> used(places.points.size(), -1);
+  TriangleMesh out;
+  std::vector<Eigen::Vector3d> points;
+  out.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (int c = 0; c < 3; ++c) {
+      const auto p = static_cast<std::size_t>(triangles[t][c]);
+      if (used[p] < 0) {
+        used[p] = static_cast<int>(points.size());
+        points.push_back(places.points[p]);
+      }
+      out.triangles(c, static_cast<Eigen::Index>(t)) = used[p];
+    }
+  out.vertices_lps_mm.resize(3, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) out.vertices_lps_mm.col(static_cast<Eigen::Index>(i)) = points[i];
+  return out;
+}
+
+/// The first way of tidying that closes the surface: points exactly at one place, within samePlace, walls gone; else
+/// the first.
+TriangleMesh tidied(const TriangleMesh& mesh) {
+  const Eigen::Vector3d extent_mm =
+      mesh.vertices_lps_mm.rowwise().maxCoeff() - mesh.vertices_lps_mm.rowwise().minCoeff();
+  const double within_mm = samePlace * extent_mm.norm();
+  TriangleMesh exact = tidied(mesh, 0.0, Walls::KeepOne);
+  if (isClosed(exact)) return exact;
+  for (const Walls walls : {Walls::KeepOne, Walls::CancelOpposite})
+    if (TriangleMesh merged = tidied(mesh, within_mm, walls); isClosed(merged)) return merged;
+  return exact;
 }
 
 }  // namespace
@@ -67,7 +131,7 @@ SurfaceFile readSurface(const std::filesystem::path& path) {
                                   : detail::readVtk(path, e != ".vtk", e == ".vtu");
   if (!out.mesh.vertices_lps_mm.allFinite()) detail::refuseSurface(path, "a coordinate is not a number");
   if (out.points == 0) out.points = static_cast<std::size_t>(out.mesh.vertices_lps_mm.cols());
-  tidy(out.mesh);
+  if (out.mesh.triangles.cols() > 0) out.mesh = tidied(out.mesh);
   if (out.mesh.triangles.cols() == 0) detail::refuseSurface(path, "it holds no triangles");
   out.closed = isClosed(out.mesh);
   if (out.closed && volume_mm3(out.mesh) < 0) out.mesh.triangles.row(1).swap(out.mesh.triangles.row(2));

@@ -21,7 +21,8 @@ bool isSurfaceFile(const std::filesystem::path& path);
 
 /// Reads a surface, or the outside of a volume mesh. Coordinates are LPS mm; a file that says SPACE=RAS (VTK field
 /// data, or a comment in the first lines of STL and OBJ, as 3D Slicer writes it) is turned into LPS. Polygons are cut
-/// into triangles, points at the same place are merged, repeated triangles and those without area dropped. Throws
+/// into triangles, points at the same place are merged (where that does not close the surface: points within 1e-6 of
+/// its size, and the walls of bodies that touch go), repeated triangles and those without area dropped. Throws
 /// BadInput where the file cannot be read, is larger than 1 GB, or holds indices beyond its points or no triangle.
 SurfaceFile readSurface(const std::filesystem::path& path);
 

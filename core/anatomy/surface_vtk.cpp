@@ -116,6 +116,7 @@ vtkSmartPointer<vtkDataSet> dataOf(const std::filesystem::path& path, bool xml, 
 
 SurfaceFile readVtk(const std::filesystem::path& path, bool xml, bool volumeFile) {
   SurfaceFile out;
+  if (!xml) checkLegacyVtk(path);
   const vtkSmartPointer<vtkDataSet> data = dataOf(path, xml, volumeFile);
   vtkSmartPointer<vtkPolyData> surface = vtkPolyData::SafeDownCast(data);
   out.points = static_cast<std::size_t>(data->GetNumberOfPoints());

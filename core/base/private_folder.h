@@ -5,7 +5,7 @@
 namespace glisson {
 
 /// A folder below the system's temporary one that only this user may enter (mode 0700), removed with everything in it
-/// by the destructor.
+/// by the destructor; where the program is killed, by the next one that makes such a folder.
 class PrivateFolder {
  public:
   /// Throws BadInput where no temporary folder can be made.
@@ -17,6 +17,7 @@ class PrivateFolder {
 
  private:
   std::filesystem::path path_;
+  int lock_ = -1;  ///< held while the folder is in use
 };
 
 }  // namespace glisson

@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -38,9 +39,44 @@ std::string keyOf(const std::string& scene, const std::string& recordKey) {
 }
 
 double at(const Json& j, const char* key) {
-  return j.contains("difference") && j["difference"].contains(key) && j["difference"][key].is_number()
+  return j.contains("difference") && j["difference"].is_object() && j["difference"].contains(key) && j["difference"][key].is_number()
              ? j["difference"][key].get<double>()
              : none;
+}
+
+/// Words between quotation marks that are the program's own: none of them comes out of a patient's files.
+bool ownWord(const std::string& word) {
+  static constexpr std::array own = {"anatomical", "magnitude",  "wave",     "stiffness", "confidence", "colour-copy",
+                                     "other",      "phase",      "liver",    "mri",       "mre",        "roi",
+                                     "mask",       "scene.json", "mri_dir",  "Pa",        "kPa",        "shear",
+                                     "youngs",     "sop_instance_uid",       "polygons",  "points_lps_mm"};
+  return word.starts_with("--") || std::find(own.begin(), own.end(), word) != own.end();
+}
+
+/// What stands between quotation marks may be the name of a file, a structure, a segment or a series, and those are
+/// often made of the patient's: it is left out, unless it is the patient's number
+/// in the study or one of the program's own words.
+std::string withoutQuotedNames(const std::string& message, const std::string& id) {
+  const auto letter = [&](std::size_t at) {
+    return at < message.size() && (std::isalnum(static_cast<unsigned char>(message[at])) || (message[at] & 0x80));
+  };
+  std::string out;
+  for (std::size_t p = 0; p < message.size();) {
+    if (message[p] != '\'' || (p > 0 && letter(p - 1))) {
+      out += message[p++];
+      continue;
+    }
+    std::size_t end = message.find('\'', p + 1);
+    while (end != std::string::npos && letter(end + 1)) end = message.find('\'', end + 1);
+    if (end == std::string::npos) {
+      out += message[p++];
+      continue;
+    }
+    const std::string word = message.substr(p + 1, end - p - 1);
+    out += word == id || ownWord(word) ? "'" + word + "'" : "(a name)";
+    p = end + 1;
+  }
+  return out;
 }
 
 }  // namespace
@@ -60,7 +96,7 @@ std::string anonymous(std::string message, const fs::path& folder, const std::st
       if (word) message.replace(p, part.size(), instead);
       p += word ? instead.size() : part.size();
     }
-  return message;
+  return withoutQuotedNames(message, id);
 }
 
 void studyChosen(Summary& summary, const std::map<std::string, std::string>& scenes, const CohortOptions& options,

@@ -1,8 +1,5 @@
 #include "cohort/records.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 
 namespace glisson::cohort {
@@ -149,21 +147,7 @@ std::vector<CaseRecord> readRecords(const fs::path& output) {
 void writeWhole(const fs::path& file, const std::string& text) {
   std::error_code ec;
   fs::create_directories(file.parent_path(), ec);
-  const fs::path beside = file.string() + ".part";
-  const int out = open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  bool whole = out >= 0;
-  for (std::size_t done = 0; whole && done < text.size();) {
-    const ssize_t n = ::write(out, text.data() + done, text.size() - done);
-    whole = n > 0;
-    if (whole) done += static_cast<std::size_t>(n);
-  }
-  if (out >= 0) {
-    whole = fsync(out) == 0 && whole;
-    whole = close(out) == 0 && whole;
-  }
-  if (whole) fs::rename(beside, file, ec);
-  if (!whole || ec)
-    throw BadInput("cannot write '" + file.filename().string() + "'; is the disk full or the folder read-only?");
+  writeAtomically(file, text);
 }
 
 std::string readWhole(const fs::path& file) {

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <mutex>
+#include <set>
 
 #include "base/error.h"
 #include "base/sha256.h"
@@ -92,6 +93,28 @@ std::string cleaned(const std::string& raw) {
 
 std::string shownText(DcmItem& item, const DcmTagKey& tag) {
   return cleaned(text(item, tag));
+}
+
+std::string privateText(DcmItem& item, std::uint16_t group, std::uint8_t element, const char* creator) {
+  bool firstIsAnothers = false;
+  // One pass: creators stand before what they reserved.
+  std::set<unsigned> blocks;
+  for (DcmObject* o = item.nextInContainer(nullptr); o != nullptr; o = item.nextInContainer(o)) {
+    const unsigned number = o->getETag();
+    if (o->getGTag() < group) continue;
+    if (o->getGTag() > group) break;
+    if (number <= 0xFF) {
+      const std::string owner = text(item, o->getTag());
+      if (owner == creator)
+        blocks.insert(number);
+      else if (number == 0x10)
+        firstIsAnothers = !owner.empty();
+    } else if ((number & 0xFFU) == element && blocks.count(number >> 8U) > 0) {
+      if (const std::string value = text(item, o->getTag()); !value.empty()) return value;
+    }
+  }
+  if (firstIsAnothers || !blocks.empty()) return {};
+  return text(item, DcmTagKey(group, static_cast<Uint16>(0x1000U | element)));
 }
 
 std::string unifiedText(DcmItem& item, const DcmTagKey& tag) {

@@ -4,11 +4,13 @@
 #include <chrono>
 #include <fstream>
 #include <map>
+#include <sstream>
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include "base/error.h"
+#include "base/part_file.h"
 #include "base/text.h"
 #include "dicom/detail/attributes.h"
 #include "dicom/detail/deidentify_actions.h"
@@ -25,6 +27,7 @@ struct Case {
   int shift_days = 0;
   std::string description;  ///< for SeriesDescription, words of our own
   int structures = 0;
+  bool agesCut = false;
 };
 
 std::string mappedUid(const ProjectKey& key, const std::string& old) {
@@ -44,6 +47,15 @@ std::string shiftedDate(const std::string& date, int days) {
   std::snprintf(out, sizeof out, "%04d%02u%02u", static_cast<int>(moved.year()), static_cast<unsigned>(moved.month()),
                 static_cast<unsigned>(moved.day()));
   return out;
+}
+
+/// Ages above 89 years identify, and are put together as 90: "094Y", or as months, weeks or days.
+bool isOver89(const std::string& age) {
+  if (age.size() < 2) return false;
+  const double perYear = age.back() == 'D' ? 365.25 : age.back() == 'W' ? 52.18 : age.back() == 'M' ? 12.0 : 1.0;
+  const std::string digits = age.substr(0, age.find_last_of("0123456789") + 1);
+  return !digits.empty() && digits.size() < 6 && digits.find_first_not_of("0123456789") == std::string::npos &&
+         std::stod(digits) / perYear >= 90.0;
 }
 
 /// A liver is called so in every language that its outline's name is searched for; all else gets a number.
@@ -128,7 +140,13 @@ void treat(DcmItem& item, DcmElement& element, Case& c, int depth) {
       return;
     }
     case Action::Characteristic:
-      if (c.options.keepCharacteristics) return;
+      if (c.options.keepCharacteristics) {
+        if (tag == DCM_PatientAge && isOver89(text(item, tag))) {
+          setText(item, tag, "090Y");
+          c.agesCut = true;
+        }
+        return;
+      }
       if (tag == DCM_PatientSex)
         setText(item, tag, "");
       else
@@ -265,28 +283,21 @@ void save(DcmDataset& data, const ByteSource& source, const FileLayout& layout, 
   const bool compressed = layout.pixels && layout.pixels->encapsulated;
   const std::string syntax = compressed ? layout.transferSyntax : DcmXfer(written).getXferID();
   const std::uint64_t end = endOfPixels(layout);
-  const auto header = file.parent_path() / ("." + file.filename().string() + ".header");
-  const auto temporary = file.parent_path() / ("." + file.filename().string() + ".part");
-  bool good = data.saveFile(header.c_str(), written, EET_ExplicitLength).good();
-  if (good) {
-    std::ifstream from(header, std::ios::binary);
-    std::ofstream to(temporary, std::ios::binary);
-    to << metaInformation(text(data, DCM_SOPClassUID), text(data, DCM_SOPInstanceUID), syntax) << from.rdbuf();
-    for (std::uint64_t at = layout.headerEnd; at < end;) {
-      const std::uint64_t part = std::min<std::uint64_t>(end - at, 1U << 20);
-      const std::vector<std::uint8_t> bytes = source.bytes(at, part);
-      to.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-      at += part;
-    }
-    to.flush();
-    good = static_cast<bool>(to) && static_cast<bool>(from);
+  PartFile header(file), whole(file);
+  if (data.saveFile(header.path().c_str(), written, EET_ExplicitLength).bad())
+    throw Error("a de-identified file cannot be written; is the folder writable, and the disk not full?");
+  std::ifstream from(header.path(), std::ios::binary);
+  std::ostringstream start;
+  start << metaInformation(text(data, DCM_SOPClassUID), text(data, DCM_SOPInstanceUID), syntax) << from.rdbuf();
+  const std::string head = start.str();
+  whole.write(head.data(), head.size());
+  for (std::uint64_t at = layout.headerEnd; at < end;) {
+    const std::uint64_t piece = std::min<std::uint64_t>(end - at, 1U << 20);
+    const std::vector<std::uint8_t> bytes = source.bytes(at, piece);
+    whole.write(bytes.data(), bytes.size());
+    at += piece;
   }
-  std::error_code failed;
-  std::filesystem::remove(header, failed);
-  if (good) std::filesystem::rename(temporary, file, failed);
-  if (good && !failed) return;
-  std::filesystem::remove(temporary, failed);
-  throw Error("a de-identified file cannot be written; is the folder writable, and the disk not full?");
+  whole.become();
 }
 
 }  // namespace
@@ -314,6 +325,7 @@ DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesyst
   }
   std::sort(files.begin(), files.end());
   DeidentifyResult result;
+  std::size_t agesCut = 0;
   std::filesystem::create_directories(out);
   for (std::size_t n = 0; n < files.size(); ++n) {
     progress.part(0.3, 1.0).report(static_cast<double>(n) / static_cast<double>(files.size()), "de-identifying");
@@ -330,7 +342,7 @@ DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesyst
       const std::string patient = keyedDigest(
           key, "patient/" + unifiedText(data, DCM_PatientID) + "/" + unifiedText(data, DCM_IssuerOfPatientID) +
                    (text(data, DCM_PatientID).empty() ? unifiedText(data, DCM_PatientName) : std::string()));
-      Case c{key, options, "G-" + patient.substr(0, 12), 0, {}, 0};
+      Case c{key, options, "G-" + patient.substr(0, 12), 0, {}, 0, false};
       c.shift_days = -1 - static_cast<int>(std::stoul(patient.substr(12, 6), nullptr, 16) % 3650);
       const std::string study = options.cleanDescriptors ? knownWords(text(data, DCM_StudyDescription)) : std::string();
       const auto words = descriptions.find(text(data, DCM_SeriesInstanceUID));
@@ -348,11 +360,16 @@ DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesyst
       if (std::filesystem::exists(file)) throw BadInput("has the SOP Instance UID of another file");
       save(data, source, layout, file);
       result.files.push_back(file);
+      agesCut += c.agesCut ? 1 : 0;
     } catch (const BadInput& e) {
       result.leftOut.push_back({files[n], e.what()});
     }
   }
   result.notes.push_back("PS3.15 basic profile; free text, names and dates beyond it are removed too");
+  result.notes.push_back("the scanner's maker, model and software versions are kept");
+  if (agesCut > 0)
+    result.notes.push_back("ages of 90 years and more identify: they were written as 090Y, in " +
+                           std::to_string(agesCut) + " files");
   if (!result.leftOut.empty())
     result.notes.push_back(std::to_string(result.leftOut.size()) + " files were left out, each with its reason");
   progress.report(1.0, "de-identified");

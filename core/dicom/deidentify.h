@@ -27,7 +27,7 @@ std::string keyedDigest(const ProjectKey& key, const std::string& text);
 struct DeidentifyOptions {
   bool shiftDates = false;           ///< retain longitudinal temporal information with modified dates
   bool cleanDescriptors = false;     ///< keep of descriptions the words that say how an image was made
-  bool keepCharacteristics = false;  ///< retain age, sex, size and weight
+  bool keepCharacteristics = false;  ///< retain age (90 at most), sex, size and weight
 };
 
 struct DeidentifyResult {

@@ -1,6 +1,8 @@
 #include "dicom/frame_groups.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 #include "base/error.h"
@@ -8,6 +10,7 @@
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
+#include "dicom/frame_values.h"
 
 namespace glisson::dicom {
 namespace {
@@ -24,10 +27,11 @@ class FrameView {
     return data_;
   }
 
-  DcmItem* realWorldMap() const {
-    if (DcmItem* item = own_ != nullptr ? itemOf(*own_, DCM_RealWorldValueMappingSequence) : nullptr) return item;
-    if (DcmItem* item = shared_ != nullptr ? itemOf(*shared_, DCM_RealWorldValueMappingSequence) : nullptr) return item;
-    return itemOf(data_, DCM_RealWorldValueMappingSequence);
+  /// What holds the real-world value maps; null where there is none.
+  DcmItem* mapping() const {
+    for (DcmItem* holder : {own_, shared_, &data_})
+      if (holder != nullptr && itemOf(*holder, DCM_RealWorldValueMappingSequence) != nullptr) return holder;
+    return nullptr;
   }
 
  private:
@@ -87,55 +91,44 @@ void readGeometry(const FrameView& view, Frame& frame) {
   frame.statedSpacing_mm = lenient(DCM_SpacingBetweenSlices);
 }
 
-void warnOnce(ImageHeader& header, const std::string& text) {
-  for (const std::string& known : header.warnings)
-    if (known == text) return;
-  header.warnings.push_back(text);
-}
-
-void readRescale(const FrameView& view, Frame& frame, ImageHeader& header) {
-  DcmItem& group = view.group(DCM_PixelValueTransformationSequence);
-  const auto slope = number(group, DCM_RescaleSlope);
-  const auto intercept = number(group, DCM_RescaleIntercept);
-  if (slope.has_value() != intercept.has_value())
-    throw BadInput("has only one of " + nameOf(DCM_RescaleSlope) + " and " + nameOf(DCM_RescaleIntercept) +
-                   "; the stored values cannot be turned into measured ones");
-  if (slope && *slope == 0.0) throw BadInput(nameOf(DCM_RescaleSlope) + " is 0");
-  if (slope) frame.rescale = {*slope, *intercept};
-  const std::string type = shownText(group, DCM_RescaleType);
-  if (header.unit.empty() && !type.empty() && type != "US") header.unit = type;
-
-  DcmItem* map = view.realWorldMap();
-  if (map == nullptr) return;
-  const auto mapSlope = number(*map, DCM_RealWorldValueSlope);
-  const auto mapIntercept = number(*map, DCM_RealWorldValueIntercept);
-  if (DcmItem* units = itemOf(*map, DCM_MeasurementUnitsCodeSequence)) {
-    const std::string unit = shownText(*units, DCM_CodeValue);
-    if (!unit.empty() && unit != "1" && header.unit.empty()) header.unit = unit;
+/// The frame's places along the dimensions that its file declares, but for those that count slices.
+void addDimensions(DcmItem& data, DcmItem& content, Frame& frame) {
+  const DcmTagKey slices[] = {DCM_InStackPositionNumber, DCM_StackID, DCM_ImagePositionPatient,
+                              DCM_ImageOrientationPatient};
+  const DcmTagKey times[] = {DCM_NominalCardiacTriggerDelayTime, DCM_TemporalPositionIndex, DCM_TriggerTime,
+                             DCM_NominalPercentageOfCardiacPhase, DCM_FrameReferenceDateTime,
+                             DCM_FrameAcquisitionDateTime};
+  std::vector<double> values;
+  try {
+    values = numbers(content, DCM_DimensionIndexValues);
+  } catch (const BadInput&) {  // no numbers: as good as none
   }
-  if (!mapSlope || !mapIntercept || *mapSlope == 0.0) return;
-  const Rescale mapped{*mapSlope, *mapIntercept};
-  if (!slope) {
-    frame.rescale = mapped;
-    if (!(mapped == Rescale{}))
-      warnOnce(header, "has its values scaled by the real-world value map (no rescale is given)");
-  } else if (!(mapped == frame.rescale)) {
-    std::ostringstream why;
-    why << "has a real-world value map (slope " << mapped.slope << ", intercept " << mapped.intercept
-        << ") that differs from its rescale (slope " << frame.rescale.slope << ", intercept " << frame.rescale.intercept
-        << "); the rescale is used: confirm which is meant";
-    warnOnce(header, why.str());
+  int other = 0;
+  for (unsigned long d = 0; d < values.size() && d < 8; ++d) {
+    DcmItem* dimension = itemOf(data, DCM_DimensionIndexSequence, d);
+    DcmElement* element = nullptr;
+    DcmTagKey pointer;
+    if (dimension == nullptr || dimension->findAndGetElement(DCM_DimensionIndexPointer, element).bad()) continue;
+    auto* attribute = dynamic_cast<DcmAttributeTag*>(element);
+    if (attribute == nullptr || attribute->getTagVal(pointer).bad()) continue;
+    const auto in = [&pointer](const auto& list) {
+      return std::find(std::begin(list), std::end(list), pointer) != std::end(list);
+    };
+    if (in(slices)) continue;
+    frame.kinds.emplace_back(in(times) ? "time index" : "dimension index " + std::to_string(++other),
+                             std::to_string(std::lround(values[d])));
   }
 }
 
-void readKinds(const FrameView& view, DcmItem& data, Frame& frame) {
+void readKinds(const FrameView& view, DcmItem& data, const std::string& privateType, Frame& frame) {
   const auto add = [&frame](const char* what, const std::string& value) {
     if (!value.empty()) frame.kinds.emplace_back(what, value);
   };
   DcmItem& type = view.group(DCM_MRImageFrameTypeSequence);
   add("image type", text(type, &type == &data ? DCM_ImageType : DCM_FrameType));
   add("complex component", text(type, DCM_ComplexImageComponent));
-  add("private image type", text(data, DcmTagKey(0x0043, 0x102F)));
+  add("private image type", privateType);
+  if (frame.quantity) add("quantity", inWords(*frame.quantity));
   add("echo number", text(data, DCM_EchoNumbers));
   DcmItem& echo = view.group(DCM_MREchoSequence);
   add("echo time", text(echo, &echo == &data ? DCM_EchoTime : DCM_EffectiveEchoTime));
@@ -147,6 +140,10 @@ void readKinds(const FrameView& view, DcmItem& data, Frame& frame) {
       text(content, &content == &data ? DCM_TemporalPositionIdentifier : DCM_TemporalPositionIndex));
   add("trigger time", text(data, DCM_TriggerTime));
   add("acquisition number", text(data, DCM_AcquisitionNumber));
+  if (&content == &data) return;
+  add("trigger delay", text(view.group(DCM_CardiacSynchronizationSequence), DCM_NominalCardiacTriggerDelayTime));
+  add("frame acquisition number", text(content, DCM_FrameAcquisitionNumber));
+  addDimensions(data, content, frame);
 }
 
 }  // namespace
@@ -159,6 +156,7 @@ void readFrames(DcmDataset& data, std::uint64_t frames, ImageHeader& header) {
                    " frames and no functional groups, so that the place of a frame is unknown");
   if (groups > 0 && groups != frames)
     throw BadInput("has " + std::to_string(frames) + " frames, but functional groups for " + std::to_string(groups));
+  const std::string privateType = privateText(data, 0x0043, 0x2F, "GEMS_PARM_01");
   header.frames.reserve(static_cast<std::size_t>(frames));
   DcmSequenceOfItems* perFrame = nullptr;
   data.findAndGetSequence(DCM_PerFrameFunctionalGroupsSequence, perFrame);
@@ -170,12 +168,12 @@ void readFrames(DcmDataset& data, std::uint64_t frames, ImageHeader& header) {
     const FrameView view(data, shared, static_cast<DcmItem*>(own));
     try {
       readGeometry(view, frame);
-      readRescale(view, frame, header);
+      readValues(view.group(DCM_PixelValueTransformationSequence), view.mapping(), frame, header);
     } catch (const BadInput& e) {
       if (frames == 1) throw;
       throw BadInput("frame " + std::to_string(n + 1) + ": " + e.what());
     }
-    readKinds(view, data, frame);
+    readKinds(view, data, privateType, frame);
     header.frames.push_back(std::move(frame));
   }
 }

@@ -1,5 +1,6 @@
 #include "dicom/image_header.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -9,6 +10,7 @@
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 #include "dicom/frame_groups.h"
+#include "dicom/frame_values.h"
 #include "dicom/siemens.h"
 #include "dicom/stored_frames.h"
 
@@ -122,9 +124,64 @@ std::uint64_t checkedFrameCount(DcmDataset& data, ImageHeader& h, const ByteSour
   return frames;
 }
 
-std::string unitOf(DcmDataset& data) {
-  const std::string type = shownText(data, DCM_RescaleType);
-  return type == "US" ? std::string() : type;
+/// Days since some day, of a date "YYYYMMDD"; empty where it is none.
+std::optional<double> days(const std::string& date) {
+  if (date.size() < 8 || date.find_first_not_of("0123456789") < 8) return {};
+  const auto part = [&date](std::size_t at, std::size_t n) { return std::stoi(date.substr(at, n)); };
+  return 372.0 * part(0, 4) + 31.0 * part(4, 2) + part(6, 2);
+}
+
+/// Seconds of a time "HHMMSS.ffffff"; empty where it is none.
+std::optional<double> seconds(const std::string& time) {
+  if (time.size() < 6 || time.find_first_not_of("0123456789") < 6) return {};
+  const auto part = [&time](std::size_t at) { return std::stoi(time.substr(at, 2)); };
+  double fraction = 0.0;
+  if (time.size() > 7 && time[6] == '.') {
+    double scale = 0.1;
+    for (std::size_t n = 7; n < time.size() && time[n] >= '0' && time[n] <= '9'; ++n, scale *= 0.1)
+      fraction += scale * (time[n] - '0');
+  }
+  return 3600.0 * part(0) + 60.0 * part(2) + part(4) + fraction;
+}
+
+std::optional<double> acquisitionTime(DcmDataset& data) {
+  const std::string both = text(data, DCM_AcquisitionDateTime);
+  const std::string date = both.size() >= 14 ? both.substr(0, 8) : text(data, DCM_AcquisitionDate);
+  const auto time = seconds(both.size() >= 14 ? both.substr(8) : text(data, DCM_AcquisitionTime));
+  if (!time) return {};
+  return 86400.0 * days(date).value_or(0.0) + *time;
+}
+
+/// UIDs of what the image was made of or refers to.
+void addReferences(DcmItem& item, std::vector<std::string>& to) {
+  constexpr std::size_t most = 64;
+  const auto add = [&to](const std::string& uid) {
+    if (!uid.empty() && to.size() < most && std::find(to.begin(), to.end(), uid) == to.end()) to.push_back(uid);
+  };
+  for (const DcmTagKey& sequence : {DCM_SourceImageSequence, DCM_ReferencedImageSequence})
+    for (unsigned long n = 0; n < std::min<unsigned long>(itemCount(item, sequence), most); ++n)
+      add(shownText(*itemOf(item, sequence, n), DCM_ReferencedSOPInstanceUID));
+  for (unsigned long n = 0; n < std::min<unsigned long>(itemCount(item, DCM_ReferencedSeriesSequence), most); ++n)
+    add(shownText(*itemOf(item, DCM_ReferencedSeriesSequence, n), DCM_SeriesInstanceUID));
+  for (unsigned long n = 0; n < std::min<unsigned long>(itemCount(item, DCM_DerivationImageSequence), most); ++n)
+    addReferences(*itemOf(item, DCM_DerivationImageSequence, n), to);
+}
+
+void readAcquisition(DcmDataset& data, ImageHeader& h) {
+  h.acquisitionUid = shownText(data, DCM_AcquisitionUID);
+  h.acquisition_s = acquisitionTime(data);
+  try {
+    const auto value = number(data, DCM_AcquisitionNumber);
+    if (value && std::abs(*value) < 2e9) h.acquisitionNumber = static_cast<int>(*value);
+  } catch (const BadInput&) {  // no number: as good as none
+  }
+  addReferences(data, h.references);
+  if (DcmItem* shared = itemOf(data, DCM_SharedFunctionalGroupsSequence)) addReferences(*shared, h.references);
+  if (DcmItem* frame = itemOf(data, DCM_PerFrameFunctionalGroupsSequence)) addReferences(*frame, h.references);
+  try {
+    h.privateScale = number(data, DcmTagKey(0x2005, 0x100E));
+  } catch (const BadInput&) {
+  }
 }
 
 /// Whether the pixels may hold text about the patient: it says so, or it is a picture of a screen that does not deny
@@ -168,7 +225,7 @@ ImageHeader parsed(const std::filesystem::path& file, const ByteSource& source, 
     h.description = shownText(data, DCM_SeriesDescription);
     h.imageType = shownText(data, DCM_ImageType);
     h.manufacturer = shownText(data, DCM_Manufacturer);
-    h.sequenceName = shownText(data, DcmTagKey(0x0019, 0x109C));
+    h.sequenceName = cleaned(privateText(data, 0x0019, 0x9C, "GEMS_ACQU_01"));
     if (h.sequenceName.empty()) h.sequenceName = shownText(data, DCM_SequenceName);
     h.lossy =
         text(data, DCM_LossyImageCompression) == "01" || isLossy(h.layout.transferSyntax) || hasLossyWavelet(h, source);
@@ -183,8 +240,10 @@ ImageHeader parsed(const std::filesystem::path& file, const ByteSource& source, 
     } catch (const BadInput&) {
       h.warnings.push_back(nameOf(DCM_SeriesNumber) + " or " + nameOf(DCM_InstanceNumber) + " is no number");
     }
-    h.unit = unitOf(data);
+    readAcquisition(data, h);
+    h.announced = announcedBy(data);
     readPixelDescription(data, h);
+    readPadding(data, h);
     const std::uint64_t frames = checkedFrameCount(data, h, source, fileBytes);
     readFrames(data, frames, h);
     if (h.imageType.find("MOSAIC") != std::string::npos && frames == 1) expandMosaic(data, h);

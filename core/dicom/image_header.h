@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "dicom/announced.h"
 #include "dicom/file_layout.h"
+#include "dicom/map_quantity.h"
 
 namespace glisson::dicom {
 
@@ -19,6 +21,25 @@ struct Rescale {
   double slope = 1.0;
   double intercept = 0.0;
   bool operator==(const Rescale&) const = default;
+};
+
+/// A run of stored values and what they mean: a line, or a table from the first one on.
+struct ValueSegment {
+  double first = 0.0, last = 0.0;  ///< stored values, both included
+  Rescale line;
+  std::vector<double> table;  ///< value of first, first + 1 ...; empty where the line holds
+  bool operator==(const ValueSegment&) const = default;
+};
+
+/// A real-world value map. Stored values in none of its segments have no value.
+using ValueMap = std::vector<ValueSegment>;
+
+/// What is odd about the scale of a frame.
+enum class ScaleDoubt {
+  None,
+  MapUsed,       ///< rescale and map differ; the map is used: the only one with a unit
+  RescaleUsed,   ///< they differ; the rescale is used
+  MapsDisagree,  ///< two maps of one quantity give different values: there is no telling
 };
 
 /// One image plane: a file, or a frame of a multi-frame file.
@@ -32,6 +53,10 @@ struct Frame {
   std::optional<double> thickness_mm;
   std::optional<double> statedSpacing_mm;  ///< SpacingBetweenSlices: cross-checked only
   Rescale rescale;
+  int map = -1;  ///< of the header's maps: the one that holds instead of rescale; -1 where the rescale does
+  ScaleDoubt scaleDoubt = ScaleDoubt::None;
+  std::string unit;  ///< of the values, in the words of base/map_unit.h where it is one of those; empty where unknown
+  std::optional<MapQuantity> quantity;  ///< where a code says so
   /// What may tell two images of one position apart, strongest first: {attribute, value}.
   std::vector<std::pair<std::string, std::string>> kinds;
 };
@@ -58,7 +83,14 @@ struct ImageHeader {
   std::string seriesUid, studyUid, frameOfReferenceUid, sopInstanceUid, sopClassUid;
   std::string patientKey;
   std::string studyDate;  ///< to compare, never to show
-  std::string modality, description, imageType, manufacturer, sequenceName, unit;
+  std::string modality, description, imageType, manufacturer, sequenceName;
+  std::string acquisitionUid;
+  std::optional<int> acquisitionNumber;
+  std::optional<double> acquisition_s;  ///< when it was acquired, seconds since some day; to compare, never to show
+  std::vector<std::string> references;  ///< UIDs of series and images that it was made of or refers to
+  std::vector<ValueMap> maps;
+  std::optional<std::pair<double, double>> padding;  ///< stored values from, to: no image there
+  std::optional<double> privateScale;                ///< Philips' own: value = rescaled / (slope * this)
   int seriesNumber = 0;
   int rows = 0;
   int columns = 0;
@@ -71,6 +103,8 @@ struct ImageHeader {
   bool burnedIn = false;  ///< says that its pixels hold text about the patient
   bool isolated = false;  ///< was parsed in a reader process, which decodes its pixels too
   int instanceNumber = 0;
+  Announced announced;
+  std::filesystem::path contradicted;  ///< another file of this SOP instance and place with other pixels; else empty
   MosaicTile tile;
   ElastographyStep step;
   PixelKind kind = PixelKind::Integer;

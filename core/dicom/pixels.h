@@ -25,7 +25,17 @@ class PixelReader {
   /// Throws BadInput or RefusedFile where the code stream is damaged or of another size.
   void read(const Frame& frame, float* values);
 
+  /// Voxels that hold no value.
+  struct Undefined {
+    std::int64_t padding = 0, outsideRange = 0;
+  };
+  /// The same with not-a-number where a voxel is padding or its stored value is in no segment of the frame's map.
+  Undefined readMap(const Frame& frame, float* values);
+
  private:
+  /// Calls each(bytes, count, values) for each run of pixels of the frame.
+  template <typename Each>
+  void runs(const Frame& frame, float* values, const Each& each);
   const std::vector<std::uint8_t>& picture(int number);
 
   ImageHeader header_;

@@ -165,7 +165,7 @@ class Service {
   bool segmentation() {
     layout_ = readLayout(*source_);
     const detail::SegHeader h = detail::parseSegHeader(*source_, layout_);
-    packed_ = std::make_unique<PackedFrames>(*source_, layout_, h.frames.size(), h.pixels(), h.bits);
+    packed_ = std::make_unique<PackedFrames>(*source_, layout_, h.frames.size(), h.frameBytes(), h.bits == 1 ? 1 : 8);
     frameCount_ = h.frames.size();
     frame_ = [this](int number) { return packed_->frame(static_cast<std::size_t>(number)); };
     return say(Answer::Segmentation, detail::toMessage(h));

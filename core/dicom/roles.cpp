@@ -5,7 +5,9 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/map_unit.h"
 #include "base/text.h"
+#include "dicom/product_words.h"
 
 namespace glisson::dicom {
 namespace {
@@ -18,19 +20,53 @@ const char* firstOf(const std::string& text, std::initializer_list<const char*> 
 
 constexpr const char* byHand = "set by hand";
 
+/// Of a product, for a reason.
+std::string meaning(const Product& product) {
+  switch (product.role) {
+    case SeriesRole::Confidence:
+      return "confidence map";
+    case SeriesRole::Stiffness:
+      return product.masked ? "masked stiffness map" : "stiffness map";
+    default:
+      return "wave images";
+  }
+}
+
 void set(Series& s, SeriesRole role, const std::string& reason) {
   s.role = role;
   s.roleReason = reason;
 }
 
+void contradict(Series& s, const char* by, const char* against, SeriesRole other) {
+  tell(s, DiagnosticCode::RoleContradicted,
+       {{"role", name(s.role)},
+        {"by", std::string(by)},
+        {"against", std::string(against)},
+        {"other", other == SeriesRole::Other ? std::string("another quantity") : name(other)}});
+}
+
+/// GE's maps are in Pa, unless the file says otherwise; once somebody has rescaled them, only the file can say.
+void setGeUnit(Series& s) {
+  const auto words = unitInWords(s.description);
+  if (s.unit && mapUnit(*s.unit)) {
+    if (*s.unit != "Pa") tell(s, DiagnosticCode::UnitAgainstVendor, {{"usual", std::string("Pa")}, {"unit", *s.unit}});
+  } else if (words && *words != "Pa") {
+    s.unit = *words;
+    tell(s, DiagnosticCode::UnitByWords, {{"usual", std::string("Pa")}, {"unit", *words}});
+  } else if (!s.acquired.rescaled) {
+    s.unit = "Pa";
+  }
+}
+
 /// GE numbers the products of one MRE acquisition N: 100 N + 1 stiffness, + 5 wave, + 7 confidence.
-void setGeRole(Series& s, const ImageHeader& h, const std::string& sequence, std::size_t phases) {
+void setGeRole(Series& s, const std::string& sequence, std::size_t phases) {
   const int product = s.number >= 100 ? s.number % 100 : 0;
   const std::string where = "GE sequence '" + sequence + "', series number " + std::to_string(s.number);
   const bool echoPlanar = sequence.find("epimre") != std::string::npos;
+  const auto named = productNamed(s.description, false);
+  const bool derived = lowerCase(s.acquired.imageType).starts_with("derived");
   if (product == 1) {
     set(s, SeriesRole::Stiffness, where + " (ends in 01: stiffness in Pa)");
-    s.unit = "Pa";
   } else if (product == 5) {
     set(s, SeriesRole::Wave, where + " (ends in 05: processed wave image)");
   } else if (product == 7 && !echoPlanar && phases > 1) {
@@ -40,58 +76,45 @@ void setGeRole(Series& s, const ImageHeader& h, const std::string& sequence, std
     set(s, SeriesRole::Confidence, where + " (ends in 07: confidence 0 to 999)");
   } else if (product != 0) {
     set(s, SeriesRole::Other, where + " (no product that is used)");
+    return;
+  } else if (named && derived) {
+    // Renumbered by somebody: what it is called counts.
+    set(s, named->role, where + " (no number of a product), series description holds '" + named->word + "'");
+    s.masked = named->masked;
+  } else if (s.acquired.phaseCoded && phases == 1) {
+    set(s, SeriesRole::Phase, where + " (raw phase images)");
   } else {
-    const auto& kinds = h.frames.front().kinds;
-    const bool phase = std::any_of(kinds.begin(), kinds.end(),
-                                   [](const auto& k) { return k.first == "private image type" && k.second != "0"; });
-    if (phase && phases == 1) {
-      set(s, SeriesRole::Phase, where + " (raw phase images)");
-    } else {
-      set(s, SeriesRole::Magnitude, where + " (the acquisition itself: magnitude)");
-    }
+    set(s, SeriesRole::Magnitude, where + " (the acquisition itself: magnitude)");
   }
+  if (product != 0 && named && named->role != s.role)
+    contradict(s, "its series number", "its description", named->role);
+  if (s.role == SeriesRole::Stiffness) setGeUnit(s);
 }
-
-/// What the words of a name mean on scanners that name the products of an elastography acquisition.
-struct ProductName {
-  const char* word;
-  SeriesRole role;
-  const char* meaning;
-};
 
 /// Siemens ("MR Elastography": products by the end of the series description or a part of the image type) and Philips
 /// ("MRE": products by image type). Both write maps of the same words; nothing is taken from private scale factors.
 /// True where one applies.
-bool setVendorRole(Series& s, const ImageHeader& h) {
-  const std::string maker = lowerCase(h.manufacturer);
+bool setVendorRole(Series& s) {
+  const std::string maker = lowerCase(s.acquired.manufacturer);
   const char* vendor = maker.find("siemens") != std::string::npos   ? "Siemens"
                        : maker.find("philips") != std::string::npos ? "Philips"
                                                                     : nullptr;
   if (vendor == nullptr) return false;
   const std::string description = lowerCase(s.description);
-  const std::string type = lowerCase(h.imageType);
-  const std::string sequence = lowerCase(h.sequenceName);
-  if (firstOf(description + "\\" + type + "\\" + sequence, {"mre", "elasto", "stiff"}) == nullptr && h.step.time < 0)
+  const std::string type = lowerCase(s.acquired.imageType);
+  const std::string sequence = lowerCase(s.acquired.sequenceName);
+  if (firstOf(description + "\\" + type + "\\" + sequence, {"mre", "elasto", "stiff"}) == nullptr &&
+      !s.acquired.elastographyStep)
     return false;
-  static constexpr ProductName products[] = {
-      {"confmap", SeriesRole::Confidence, "confidence map"},    {"conf_map", SeriesRole::Confidence, "confidence map"},
-      {"confidence", SeriesRole::Confidence, "confidence map"}, {"stiffness", SeriesRole::Stiffness, "stiffness map"},
-      {"stiff", SeriesRole::Stiffness, "stiffness map"},        {"elastogram", SeriesRole::Stiffness, "stiffness map"},
-      {"shear", SeriesRole::Stiffness, "stiffness map"},        {"wave", SeriesRole::Wave, "wave images"},
-      {"displacement", SeriesRole::Wave, "wave images"}};
-  for (const ProductName& p : products) {
-    const bool inType = type.find(p.word) != std::string::npos;
-    if (!inType && description.find(p.word) == std::string::npos) continue;
-    set(s, p.role,
-        std::string(vendor) + " elastography, " + (inType ? "image type" : "series description") + " holds '" + p.word +
-            "': " + p.meaning);
-    // The unit is taken where the file states it, in its rescale type or in words; else it is asked for.
-    if (p.role == SeriesRole::Stiffness && !s.unit) {
-      if (description.find("kpa") != std::string::npos)
-        s.unit = "kPa";
-      else if (description.find("(pa)") != std::string::npos || description.find("[pa]") != std::string::npos)
-        s.unit = "Pa";
-    }
+  const auto byType = productNamed(type, true), byWords = productNamed(description, true);
+  if (byType || byWords) {
+    const Product& product = byType ? *byType : *byWords;
+    set(s, product.role,
+        std::string(vendor) + " elastography, " + (byType ? "image type" : "series description") + " holds '" +
+            product.word + "': " + (product.role == SeriesRole::Other ? "no product that is used" : meaning(product)));
+    s.masked = product.masked || (byWords && byWords->masked);
+    if (byType && byWords && byType->role != byWords->role)
+      contradict(s, "its image type", "its description", byWords->role);
     return true;
   }
   const bool phase =
@@ -100,26 +123,28 @@ bool setVendorRole(Series& s, const ImageHeader& h) {
       type.find("\\m\\") != std::string::npos || type.ends_with("\\m") || type.find("magnitude") != std::string::npos;
   if (!phase && !magnitude) return false;
   set(s, phase ? SeriesRole::Phase : SeriesRole::Magnitude,
-      std::string(vendor) + " elastography, image type '" + h.imageType.substr(0, 40) +
+      std::string(vendor) + " elastography, image type '" + s.acquired.imageType.substr(0, 40) +
           "': " + (phase ? "raw phase images" : "magnitude"));
   return true;
 }
 
-void setByDescription(Series& s, const ImageHeader& h) {
+void setByDescription(Series& s) {
   const std::string description = lowerCase(s.description);
-  const std::string type = lowerCase(h.imageType);
+  const std::string type = lowerCase(s.acquired.imageType);
   const std::string all = description + "\\" + type;
-  const auto because = [&](const char* word) {
+  const auto because = [&](const std::string& word) {
     return std::string(description.find(word) != std::string::npos ? "series description" : "image type") + " holds '" +
            word + "'";
   };
   const bool derivedMre = firstOf(all, {"mre", "elasto", "shear", "stiff", "mr touch", "mrtouch"}) != nullptr;
-  if (const char* word = firstOf(all, {"confidence", "conf_map", "conf map", "95conf"})) {
-    set(s, SeriesRole::Confidence, because(word));
-  } else if (const char* stiff = firstOf(all, {"stiff", "elastogram", "shear mod", "shear_mod"})) {
-    set(s, SeriesRole::Stiffness, because(stiff));
-  } else if (const char* wave = firstOf(all, {"wave"})) {
-    set(s, SeriesRole::Wave, because(wave));
+  const bool named = firstOf(all, {"mre", "elasto", "stiff", "mr touch", "mrtouch"}) != nullptr;
+  const auto byType = productNamed(type, false), byWords = productNamed(description, named);
+  if (byType || byWords) {
+    const Product& product = byType ? *byType : *byWords;
+    set(s, product.role, std::string(byType ? "image type" : "series description") + " holds '" + product.word + "'");
+    s.masked = product.masked || (byWords && byWords->masked);
+    if (byType && byWords && byType->role != byWords->role)
+      contradict(s, "its image type", "its description", byWords->role);
   } else if (derivedMre && (type.find("\\p\\") != std::string::npos || firstOf(description, {"phase"}) != nullptr)) {
     set(s, SeriesRole::Phase, "raw phase images of an elastography series");
   } else if (const char* mre = firstOf(all, {"mre", "elasto", "magnitude"})) {
@@ -136,6 +161,16 @@ void setByDescription(Series& s, const ImageHeader& h) {
   } else {
     set(s, SeriesRole::Other, "modality '" + s.modality + "' and nothing that says what it is for");
   }
+}
+
+/// The unit where the file states it, in its scale or in words; else it is asked for.
+void setUnitByWords(Series& s) {
+  const auto words = unitInWords(s.description);
+  if (!words) return;
+  if (!s.unit || !mapUnit(*s.unit))
+    s.unit = words;
+  else if (canonicalUnit(*words) != *s.unit)
+    tell(s, DiagnosticCode::UnitsContradict, {{"words", *words}, {"unit", *s.unit}});
 }
 
 }  // namespace
@@ -186,20 +221,30 @@ std::vector<std::string> applyRoles(ScanResult& scan, const RoleOverrides& overr
   return notFound;
 }
 
-void setRoles(std::vector<Series>& volumes, const ImageHeader& header) {
-  const std::string sequence = lowerCase(header.sequenceName);
-  const bool geMre = sequence.find("epimre") != std::string::npos || sequence.find("fgremre") != std::string::npos;
+bool setByHand(const Series& series) {
+  return series.roleReason == byHand;
+}
+
+void setRoles(std::vector<Series>& volumes) {
   for (Series& s : volumes) {
+    const std::string sequence = lowerCase(s.acquired.sequenceName);
+    const bool epi = sequence.find("epimre") != std::string::npos;
     if (s.colour) {
       set(s, SeriesRole::ColourCopy, "its pixels are colours, not measured values");
       s.unit.reset();
       if (!s.error)
         s.error = "its pixels are colours: a coloured elastogram is not a stiffness map; load the grey-value series";
-    } else if (geMre) {
-      setGeRole(s, header, sequence.find("epimre") != std::string::npos ? "epimre" : "fgremre", volumes.size());
-    } else if (!setVendorRole(s, header)) {
-      setByDescription(s, header);
+      continue;
     }
+    if (epi || sequence.find("fgremre") != std::string::npos)
+      setGeRole(s, epi ? "epimre" : "fgremre", volumes.size());
+    else if (!setVendorRole(s))
+      setByDescription(s);
+    if (s.quantity && *s.quantity != MapQuantity::Other && s.role != SeriesRole::Stiffness)
+      set(s, SeriesRole::Stiffness, "its code says that it holds " + inWords(*s.quantity));
+    if (s.role == SeriesRole::Stiffness) setUnitByWords(s);
+    if (s.acquired.privateScale && (s.role == SeriesRole::Stiffness || s.role == SeriesRole::Confidence))
+      tell(s, DiagnosticCode::PrivateScaleNotUsed, {{"factor", *s.acquired.privateScale}});
   }
 }
 
@@ -209,10 +254,10 @@ const Series& findRole(const ScanResult& scan, SeriesRole role) {
   for (const Series& s : scan.series) {
     there += (there.empty() ? "" : ", ") + name(s.role) + " (series " + std::to_string(s.number) + ")";
     if (s.role != role) continue;
-    // Set by hand before guessed, readable before unreadable, then more slices; equal ones stay in order of series
-    // number and uid.
+    // Set by hand before guessed, readable before unreadable, whole before masked, then more slices; equal ones stay in
+    // order of series number and uid.
     const auto rank = [](const Series& x) {
-      return std::make_tuple(x.roleReason == byHand, !x.error.has_value(), x.grid.size.z());
+      return std::make_tuple(setByHand(x), !x.error.has_value(), !x.masked, x.grid.size.z());
     };
     if (best == nullptr || rank(s) > rank(*best)) best = &s;
   }

@@ -2,13 +2,15 @@
 
 #include <vector>
 
-#include "dicom/image_header.h"
 #include "dicom/series.h"
 
 namespace glisson::dicom {
 
-/// Guesses what the volumes of one SeriesInstanceUID are for, and sets role, roleReason and (where the vendor says so)
-/// unit. header: any image of the series.
-void setRoles(std::vector<Series>& volumes, const ImageHeader& header);
+/// Guesses what the volumes of one SeriesInstanceUID are for, each by what its own images say, and sets role,
+/// roleReason and (where the vendor or the description says so) unit.
+void setRoles(std::vector<Series>& volumes);
+
+/// Whether its role was set by hand (applyRoles).
+bool setByHand(const Series& series);
 
 }  // namespace glisson::dicom

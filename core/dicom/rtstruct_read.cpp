@@ -59,13 +59,16 @@ StructureContour readContour(DcmItem& item, const std::string& where, std::vecto
 /// Listed: the images that the set says it was drawn on.
 void readReferences(DcmDataset& data, StructureSet& set, std::set<std::string>& listed) {
   forItems(data, DCM_ReferencedFrameOfReferenceSequence, [&](DcmItem& frame) {
-    if (set.frameOfReferenceUid.empty()) set.frameOfReferenceUid = shownText(frame, DCM_FrameOfReferenceUID);
+    const std::string frameUid = shownText(frame, DCM_FrameOfReferenceUID);
+    if (set.frameOfReferenceUid.empty()) set.frameOfReferenceUid = frameUid;
+    if (!frameUid.empty()) set.references.push_back({frameUid, {}});
     forItems(frame, DCM_RTReferencedStudySequence, [&](DcmItem& study) {
       // The examination that it was drawn on, which may be filed in another one.
       if (const std::string uid = shownText(study, DCM_ReferencedSOPInstanceUID); !uid.empty())
         set.origin.studyUid = uid;
       forItems(study, DCM_RTReferencedSeriesSequence, [&](DcmItem& series) {
         const std::string uid = shownText(series, DCM_SeriesInstanceUID);
+        set.references.push_back({frameUid, uid});
         if (set.referencedSeriesUid.empty())
           set.referencedSeriesUid = uid;
         else if (set.referencedSeriesUid != uid)
@@ -113,6 +116,7 @@ StructureSet readData(DcmDataset& data) {
     structure.name = shownText(item, DCM_ROIName);
     const std::string frame = shownText(item, DCM_ReferencedFrameOfReferenceUID);
     if (!frame.empty()) frames.insert(frame);
+    structure.frameOfReferenceUid = frame;
     if (!byNumber.try_emplace(structure.number, set.structures.size()).second)
       throw BadInput(nameOf(DCM_ROINumber) + " " + std::to_string(structure.number) + " is used twice");
     set.structures.push_back(std::move(structure));
@@ -139,6 +143,7 @@ StructureSet readData(DcmDataset& data) {
         return;
       }
       StructureContour contour = readContour(contourItem, where, set.warnings);
+      contour.exclusiveOr = kind == "CLOSEDPLANAR_XOR";
       if (contour.points_lps_mm.cols() < 3)
         ++tooShort;
       else

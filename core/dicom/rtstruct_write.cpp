@@ -73,10 +73,13 @@ void writeStructures(DcmDataset& data, const StructureSet& structures, const Ser
   for (const Structure& s : structures.structures) {
     DcmItem& item = root.newItem(DCM_ROIContourSequence);
     Writer(item).text(DCM_ROIDisplayColor, "192\\64\\64");
-    for (const StructureContour& c : withKeyholes(s.contours)) {
+    // Contours that flip what they enclose are written as such, all of a structure or none (DICOM PS3.3, C.8.8.6.3).
+    const bool exclusiveOr =
+        std::any_of(s.contours.begin(), s.contours.end(), [](const StructureContour& c) { return c.exclusiveOr; });
+    for (const StructureContour& c : exclusiveOr ? s.contours : withKeyholes(s.contours)) {
       DcmItem& contour = Writer(item).newItem(DCM_ContourSequence);
       referToImage(contour, source, sliceOf(c, source));
-      Writer(contour).text(DCM_ContourGeometricType, "CLOSED_PLANAR");
+      Writer(contour).text(DCM_ContourGeometricType, exclusiveOr ? "CLOSEDPLANAR_XOR" : "CLOSED_PLANAR");
       Writer(contour).number(DCM_NumberOfContourPoints, static_cast<long>(c.points_lps_mm.cols()));
       Writer(contour).number(DCM_ContourNumber, ++index);
       Writer(contour).text(DCM_ContourData, contourData(c));
@@ -98,7 +101,7 @@ std::string digest(const StructureSet& structures) {
   std::string all;
   for (const Structure& s : structures.structures) {
     all += std::to_string(s.number) + s.name;
-    for (const StructureContour& c : s.contours) all += "|" + contourData(c);
+    for (const StructureContour& c : s.contours) all += (c.exclusiveOr ? "^" : "|") + contourData(c);
   }
   return sha256(all.data(), all.size());
 }

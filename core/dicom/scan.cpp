@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <set>
 
@@ -7,6 +8,7 @@
 #include "dicom/archive.h"
 #include "dicom/directory.h"
 #include "dicom/image_header.h"
+#include "dicom/pixels.h"
 #include "dicom/reader_process.h"
 #include "dicom/roles.h"
 #include "dicom/series.h"
@@ -80,9 +82,30 @@ class FolderWalk {
   fs::path root_;
 };
 
-/// Drops copies of an image (same SOP instance at the same place).
+/// Whether two files hold the same pixels, value by value; false where either cannot be read.
+bool samePixels(const ImageHeader& a, const ImageHeader& b) {
+  if (a.rows != b.rows || a.columns != b.columns || a.frames.size() != b.frames.size() || a.samples != b.samples)
+    return false;
+  if (a.samples != 1) return true;  // pictures, never measured
+  try {
+    PixelReader one(a.file), other(b.file);
+    const std::size_t count = static_cast<std::size_t>(a.sliceRows()) * static_cast<std::size_t>(a.sliceColumns());
+    std::vector<float> x(count), y(count);
+    for (std::size_t f = 0; f < a.frames.size(); ++f) {
+      one.read(a.frames[f], x.data());
+      other.read(b.frames[f], y.data());
+      if (std::memcmp(x.data(), y.data(), count * sizeof(float)) != 0) return false;
+    }
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+/// Drops copies of an image (same SOP instance at the same place with the same pixels). Where the pixels differ, which
+/// of the two was measured is not known: the series that holds them is refused.
 void dropCopies(std::vector<ImageHeader>& headers, std::vector<SkippedFile>& skipped) {
-  std::map<std::string, const ImageHeader*> seen;
+  std::map<std::string, ImageHeader*> seen;
   std::vector<ImageHeader> kept;
   kept.reserve(headers.size());  // so that the pointers in seen stay valid
   for (ImageHeader& h : headers) {
@@ -94,6 +117,12 @@ void dropCopies(std::vector<ImageHeader>& headers, std::vector<SkippedFile>& ski
     }
     const Frame& a = known->second->frames.front();
     if ((a.position_lps_mm - h.frames.front().position_lps_mm).norm() < 1e-3) {
+      if (!samePixels(*known->second, h)) {
+        skipped.push_back({h.file, "holds other pixels than '" + known->second->file.filename().string() +
+                                       "', though it has the same SOP instance and position"});
+        known->second->contradicted = h.file;
+        continue;
+      }
       skipped.push_back(
           {h.file, "is a copy of '" + known->second->file.filename().string() + "' (same SOP instance and position)"});
     } else {
@@ -133,7 +162,8 @@ ScanResult scanFiles(const std::vector<fs::path>& files, ScanResult result, cons
   for (auto& [uid, headers] : bySeries) {
     dropCopies(headers, result.skipped);
     std::vector<Series> volumes = buildVolumes(headers);
-    setRoles(volumes, headers.front());
+    checkCounts(headers, volumes);
+    setRoles(volumes);
     const auto incomplete = refused.find(uid);
     for (Series& s : volumes) {
       if (incomplete != refused.end() && !s.error)

@@ -19,6 +19,14 @@ struct Segment {
   image::Mask mask;          ///< on the grid shared by all segments of the object
 };
 
+/// Where a frame lies and which image it says that it was drawn on. A frame of a label map stands here once for each of
+/// the segments that it holds.
+struct SegmentFrame {
+  int segment = 0;
+  Eigen::Vector3d position_lps_mm = Eigen::Vector3d::Zero();  ///< of its first pixel
+  std::string sourceSopInstanceUid;
+};
+
 /// A Segmentation as read. Segments may overlap: each has a mask of its own.
 struct SegmentationSet {
   Origin origin;
@@ -26,11 +34,12 @@ struct SegmentationSet {
   std::string referencedSeriesUid;                     ///< empty where the object names none
   std::vector<std::string> referencedSopInstanceUids;  ///< of the images that the frames were drawn on
   std::vector<Segment> segments;                       ///< ascending by number
+  std::vector<SegmentFrame> frames;                    ///< those that name a source image
   std::vector<std::string> warnings;
 };
 
-/// Reads BINARY and FRACTIONAL segmentations (a fractional voxel is inside from half the maximum on); native, RLE and
-/// deflated frames. The grid spans all frames; slices between them that no frame covers are empty.
+/// Reads BINARY, FRACTIONAL (a fractional voxel is inside from half the maximum on) and LABELMAP segmentations; native,
+/// RLE and deflated frames (16-bit labels: native ones). The grid spans all frames; slices between them that no frame covers are empty.
 /// A plain file is parsed here, all others in a process of their own with limits, as images are.
 /// Throws BadInput: no Segmentation, frames that do not lie on one regular grid, a frame of an unknown segment, a
 /// transfer syntax that is not decoded (named), truncated pixels, more voxels than fit the memory budget.

@@ -77,26 +77,29 @@ void readFrames(DcmDataset& data, std::size_t count, SegHeader& h) {
     f.position_lps_mm =
         vector3(exactly(groupOf(frame, shared, DCM_PlanePositionSequence), DCM_ImagePositionPatient, 3, where));
     if (f.position_lps_mm.cwiseAbs().maxCoeff() > 1e5) throw BadInput("lies more than 100 m from the scanner" + where);
-    DcmItem* identification = groupOf(frame, shared, DCM_SegmentIdentificationSequence);
-    if (identification == nullptr) throw BadInput("does not say which segment a frame belongs to" + where);
-    f.segment = wholeNumber(*identification, DCM_ReferencedSegmentNumber, 1, 65535);
-    h.frames.push_back(f);
+    if (!h.labelMap) {
+      DcmItem* identification = groupOf(frame, shared, DCM_SegmentIdentificationSequence);
+      if (identification == nullptr) throw BadInput("does not say which segment a frame belongs to" + where);
+      f.segment = wholeNumber(*identification, DCM_ReferencedSegmentNumber, 1, 65535);
+    }
     if (DcmItem* derivation = groupOf(frame, shared, DCM_DerivationImageSequence))
       if (DcmItem* source = itemOf(*derivation, DCM_SourceImageSequence))
-        if (const std::string uid = shownText(*source, DCM_ReferencedSOPInstanceUID);
-            !uid.empty() && images.insert(uid).second)
-          h.about.referencedSopInstanceUids.push_back(uid);
+        f.sourceSopInstanceUid = shownText(*source, DCM_ReferencedSOPInstanceUID);
+    if (!f.sourceSopInstanceUid.empty() && images.insert(f.sourceSopInstanceUid).second)
+      h.about.referencedSopInstanceUids.push_back(f.sourceSopInstanceUid);
+    h.frames.push_back(std::move(f));
   }
 }
 
-void readSegments(DcmDataset& data, SegmentationSet& set) {
+void readSegments(DcmDataset& data, bool labelMap, SegmentationSet& set) {
   DcmSequenceOfItems* items = nullptr;
   if (data.findAndGetSequence(DCM_SegmentSequence, items).bad() || items == nullptr)
     throw BadInput("describes no segments");
   for (DcmObject* o = items->nextInContainer(nullptr); o != nullptr; o = items->nextInContainer(o)) {
     auto& item = *static_cast<DcmItem*>(o);
     Segment s;
-    s.number = wholeNumber(item, DCM_SegmentNumber, 1, 65535);
+    s.number = wholeNumber(item, DCM_SegmentNumber, labelMap ? 0 : 1, 65535);
+    if (s.number == 0) continue;  // what a label map calls its background
     s.label = shownText(item, DCM_SegmentLabel);
     if (DcmItem* type = itemOf(item, DCM_SegmentedPropertyTypeCodeSequence))
       s.propertyCode = shownText(*type, DCM_CodingSchemeDesignator) + ":" + shownText(*type, DCM_CodeValue);
@@ -117,24 +120,32 @@ SegHeader parseSegHeader(const ByteSource& source, const FileLayout& layout) {
   parseHeader(source, layout, data);
   SegHeader h;
   SegmentationSet& set = h.about;
-  if (text(data, DCM_SOPClassUID) != UID_SegmentationStorage)
+  const std::string type = shownText(data, DCM_SegmentationType);
+  const std::string sopClass = text(data, DCM_SOPClassUID);
+  // Label maps were also written under the older storage class, before the newer one was assigned.
+  h.labelMap = sopClass == labelMapStorage || type == "LABELMAP";
+  if (sopClass != UID_SegmentationStorage && sopClass != labelMapStorage)
     throw BadInput("is no Segmentation (modality '" + shownText(data, DCM_Modality) + "')");
   set.warnings = layout.warnings;
   set.origin = originOf(data);
   set.frameOfReferenceUid = shownText(data, DCM_FrameOfReferenceUID);
   if (DcmItem* series = itemOf(data, DCM_ReferencedSeriesSequence))
     set.referencedSeriesUid = shownText(*series, DCM_SeriesInstanceUID);
-  readSegments(data, set);
+  readSegments(data, h.labelMap, set);
   h.rows = wholeNumber(data, DCM_Rows, 1, 65535);
   h.columns = wholeNumber(data, DCM_Columns, 1, 65535);
   h.bits = wholeNumber(data, DCM_BitsAllocated, 1, 64);
-  const std::string type = shownText(data, DCM_SegmentationType);
   h.fractional = type == "FRACTIONAL";
-  if ((type != "BINARY" && !h.fractional) || h.bits != (h.fractional ? 8 : 1))
+  const bool known = h.labelMap     ? h.bits == 8 || h.bits == 16
+                     : h.fractional ? h.bits == 8
+                                    : type == "BINARY" && h.bits == 1;
+  if (!known)
     throw BadInput("is of type '" + type + "' with " + std::to_string(h.bits) +
-                   " bits a pixel; BINARY with 1 and FRACTIONAL with 8 are read");
+                   " bits a pixel; BINARY with 1, FRACTIONAL with 8 and LABELMAP with 8 or 16 are read");
   if (h.fractional) h.maximum = wholeNumber(data, DCM_MaximumFractionalValue, 1, 255);
   readFrames(data, static_cast<std::size_t>(wholeNumber(data, DCM_NumberOfFrames, 1, maxSegFrames)), h);
+  if (h.bits == 16 && layout.pixels && layout.pixels->encapsulated)
+    throw BadInput("holds 16-bit labels in a compressed form, which is not read; convert it to an uncompressed one");
   return h;
 }
 

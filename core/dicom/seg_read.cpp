@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include <dcmtk/config/osconfig.h>
@@ -13,6 +15,7 @@
 #include "dicom/detail/parsed_objects.h"
 #include "dicom/reader_process.h"
 #include "dicom/seg.h"
+#include "dicom/slice_stack.h"
 
 namespace glisson::dicom {
 namespace {
@@ -41,7 +44,7 @@ image::Grid latticeOf(const SegHeader& h, std::vector<int>& sliceOfFrame) {
   const auto fits = [&](double s) {
     return std::all_of(levels.begin(), levels.end(), [&](double level) {
       const double k = (level - levels.front()) / s;
-      return std::abs(k - std::round(k)) * s <= 0.01 * s + 0.005;
+      return std::abs(k - std::round(k)) * s <= std::max(0.01 * s + 0.005, std::min(roundedWithin_mm, 0.1 * s));
     });
   };
   // What the header calls spacing is a cross-check: positions decide where they can.
@@ -72,7 +75,37 @@ image::Grid latticeOf(const SegHeader& h, std::vector<int>& sliceOfFrame) {
   return g;
 }
 
-/// Masks of all segments. frame(n): its pixels, one byte each.
+/// Sets the voxels of a frame that holds one segment, from the voxel first on.
+void addFrame(const SegHeader& h, int number, const std::vector<std::uint8_t>& values, std::size_t first,
+              SegmentationSet& set) {
+  const auto segment = std::find_if(set.segments.begin(), set.segments.end(),
+                                    [number](const Segment& s) { return s.number == number; });
+  if (segment == set.segments.end())
+    throw BadInput("has a frame of segment " + std::to_string(number) + ", which it does not describe");
+  std::uint8_t* to = segment->mask.values.data() + first;
+  for (std::size_t i = 0; i < h.pixels(); ++i)
+    if (h.fractional ? 2 * values[i] >= h.maximum : values[i] != 0) to[i] = 1;
+}
+
+/// The same of a frame that holds a segment's number at every pixel; returns the numbers that it holds.
+std::set<int> addLabels(const SegHeader& h, const std::vector<std::uint8_t>& bytes, std::size_t first,
+                        SegmentationSet& set) {
+  std::set<int> held;
+  std::map<int, std::uint8_t*> masks;
+  for (Segment& s : set.segments) masks[s.number] = s.mask.values.data() + first;
+  for (std::size_t i = 0; i < h.pixels(); ++i) {
+    const int label = h.bits == 16 ? bytes[2 * i] | bytes[2 * i + 1] << 8 : bytes[i];
+    if (label == 0) continue;
+    const auto mask = masks.find(label);
+    if (mask == masks.end())
+      throw BadInput("holds the label " + std::to_string(label) + ", which it does not describe as a segment");
+    mask->second[i] = 1;
+    held.insert(label);
+  }
+  return held;
+}
+
+/// Masks of all segments. frame(n): its pixels (SegHeader::frameBytes).
 SegmentationSet assembled(SegHeader h, std::uint64_t fileBytes,
                           const std::function<std::vector<std::uint8_t>(std::size_t)>& frame) {
   SegmentationSet set = std::move(h.about);
@@ -85,14 +118,15 @@ SegmentationSet assembled(SegHeader h, std::uint64_t fileBytes,
                    std::to_string(grid.voxelCount()) + " voxels, which do not fit the memory budget");
   for (Segment& s : set.segments) s.mask = image::Mask(grid);
   for (std::size_t n = 0; n < h.frames.size(); ++n) {
-    const auto segment = std::find_if(set.segments.begin(), set.segments.end(),
-                                      [&](const Segment& s) { return s.number == h.frames[n].segment; });
-    if (segment == set.segments.end())
-      throw BadInput("has a frame of segment " + std::to_string(h.frames[n].segment) + ", which it does not describe");
-    const std::vector<std::uint8_t> values = frame(n);
-    std::uint8_t* to = segment->mask.values.data() + static_cast<std::size_t>(sliceOfFrame[n]) * h.pixels();
-    for (std::size_t i = 0; i < h.pixels(); ++i)
-      if (h.fractional ? 2 * values[i] >= h.maximum : values[i] != 0) to[i] = 1;
+    const std::size_t first = static_cast<std::size_t>(sliceOfFrame[n]) * h.pixels();
+    const SegFrame& f = h.frames[n];
+    std::set<int> held = {f.segment};
+    if (h.labelMap)
+      held = addLabels(h, frame(n), first, set);
+    else
+      addFrame(h, f.segment, frame(n), first, set);
+    if (f.sourceSopInstanceUid.empty()) continue;
+    for (const int segment : held) set.frames.push_back({segment, f.position_lps_mm, f.sourceSopInstanceUid});
   }
   if (h.fractional) set.warnings.push_back("is a fractional segmentation: voxels from one half on were taken");
   return set;
@@ -105,13 +139,13 @@ SegmentationSet readSegmentation(const std::filesystem::path& file) {
     ByteSource source(file);
     if (const auto layout = plainLayout(source)) {
       SegHeader h = detail::parseSegHeader(source, *layout);
-      const PackedFrames packed(source, *layout, h.frames.size(), h.pixels(), h.bits);
+      const PackedFrames packed(source, *layout, h.frames.size(), h.frameBytes(), h.bits == 1 ? 1 : 8);
       return assembled(std::move(h), source.size(), [&packed](std::size_t n) { return packed.frame(n); });
     }
     IsolatedFile isolated(file);
     SegHeader h = isolated.segmentation();
-    return assembled(std::move(h), source.size(), [&isolated, pixels = h.pixels()](std::size_t n) {
-      return isolated.frame(static_cast<int>(n), pixels);
+    return assembled(std::move(h), source.size(), [&isolated, bytes = h.frameBytes()](std::size_t n) {
+      return isolated.frame(static_cast<int>(n), bytes);
     });
   });
 }
@@ -120,7 +154,10 @@ bool isSegmentation(const std::filesystem::path& file) {
   try {
     ByteSource source(file);
     const auto layout = plainLayout(source);
-    if (layout && !layout->sopClassUid.empty()) return layout->sopClassUid == UID_SegmentationStorage;
+    const auto known = [](const std::string& sopClass) {
+      return sopClass == UID_SegmentationStorage || sopClass == detail::labelMapStorage;
+    };
+    if (layout && !layout->sopClassUid.empty()) return known(layout->sopClassUid);
     if (!layout) {
       IsolatedFile isolated(file);
       isolated.segmentation();
@@ -128,7 +165,7 @@ bool isSegmentation(const std::filesystem::path& file) {
     }
     DcmDataset data;
     parseHeader(source, *layout, data);
-    return text(data, DCM_SOPClassUID) == UID_SegmentationStorage;
+    return known(text(data, DCM_SOPClassUID));
   } catch (const RefusedFile&) {
     return false;
   } catch (const BadInput&) {

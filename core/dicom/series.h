@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "base/progress.h"
+#include "dicom/map_quantity.h"
 #include "image/volume.h"
 
 namespace glisson::dicom {
@@ -26,6 +28,19 @@ SeriesRole roleNamed(const std::string& name);
 struct SkippedFile {
   std::filesystem::path file;
   std::string reason;
+};
+
+/// What the files say about how a volume came about: to tell what belongs to one acquisition.
+struct Acquired {
+  std::string uid;                      ///< AcquisitionUID; empty where absent, or where slices differ
+  std::optional<int> number;            ///< AcquisitionNumber, where all slices have the same
+  std::optional<double> time_s;         ///< of its earliest slice; to compare, never to show
+  std::vector<std::string> references;  ///< UIDs of series and images that it was made of or refers to
+  std::string manufacturer, sequenceName, imageType;
+  bool phaseCoded = false;             ///< GE's private image type is not magnitude
+  bool elastographyStep = false;       ///< names its time step in a vibration period
+  bool rescaled = false;               ///< values are not the stored ones
+  std::optional<double> privateScale;  ///< Philips' own, where it differs from the rescale and no unit is named
 };
 
 /// One volume's worth of files, ordered by position along the slice normal.
@@ -53,8 +68,16 @@ struct Series {
   int encodingDirection = -1;          ///< of motion (raw elastography), from 0; -1 where not known
   std::optional<double> vibration_Hz;  ///< of a raw elastography acquisition, where the file says so
   std::optional<std::string> unit;     ///< "Pa", "kPa", ... where the role and the vendor say so
-  std::vector<std::string> warnings;
+  std::vector<int> fileOfSlice;  ///< of a multi-frame object cut into several files: which of files; else empty
+  std::vector<double> unevenSlices_mm;  ///< where slices lie unevenly or one is missing (error says so): heights above
+                                        ///< the first one along the normal; else empty
+  std::optional<MapQuantity> quantity; ///< where a code of the file says so
+  bool masked = false;                 ///< a stiffness map that is called a masked copy: without what is not trusted
+  Acquired acquired;
+  std::vector<std::string> warnings;  ///< texts, those of diagnostics among them
+  Diagnostics diagnostics;
   std::optional<std::string> error;    ///< why it cannot be read as a volume; readSeries throws BadInput with it
+  std::optional<std::string> noScale;  ///< why its values are no measure (two scales); readMap throws BadInput with it
   std::shared_ptr<const void> folder;  ///< keeps the private folder of an unpacked archive while files are needed
 };
 
@@ -75,6 +98,23 @@ ScanResult scan(const std::filesystem::path& path, const Progress& progress = {}
 /// anything is allocated. Throws BadInput (series.error, truncated pixels, colour, undecodable syntax: names file and
 /// tag).
 image::ScalarVolume readSeries(const Series& series, const Progress& progress = {});
+
+/// A map with what of it holds no value, as not-a-number: padding, and stored values that its scale is not defined for.
+struct ReadMap {
+  image::ScalarVolume values;
+  std::int64_t padding = 0;       ///< voxels
+  std::int64_t outsideRange = 0;  ///< voxels
+};
+
+/// As readSeries, for maps whose values are measured.
+ReadMap readMap(const Series& series, const Progress& progress = {});
+
+/// Adds a diagnostic and its text.
+void tell(Series& series, DiagnosticCode code, std::vector<std::pair<std::string, DiagnosticValue>> arguments = {});
+
+/// The series without its error where that is only that slices lie unevenly or one is missing (unevenSlices_mm): for
+/// statistics, which count each slice by itself. Its grid is then no place but a stack, as far apart as the nearest two.
+Series asStack(const Series& series);
 
 /// The only series with this role, or the best of several by a stated rule. Throws BadInput where there is none, naming
 /// the roles that are there.

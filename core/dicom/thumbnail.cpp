@@ -18,6 +18,10 @@ Series sliceOf(const Series& series, int k) {
     one.files = {series.files.at(n)};
   else
     one.frames = {series.frames.at(n)};
+  if (!series.fileOfSlice.empty()) {
+    one.files = {series.files.at(static_cast<std::size_t>(series.fileOfSlice.at(n)))};
+    one.fileOfSlice.clear();
+  }
   return one;
 }
 

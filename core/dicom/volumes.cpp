@@ -7,7 +7,11 @@
 #include <sstream>
 #include <tuple>
 
+#include "base/diagnostic.h"
 #include "base/error.h"
+#include "dicom/announced.h"
+#include "dicom/series_facts.h"
+#include "dicom/slice_stack.h"
 #include "dicom/stored_frames.h"
 
 namespace glisson::dicom {
@@ -155,8 +159,10 @@ void split(Part part, std::vector<Part>& out) {
     return;
   }
   static constexpr const char* attributes[] = {
-      "image type",     "complex component", "private image type", "echo number",  "echo time",
-      "inversion time", "diffusion b-value", "temporal position",  "trigger time", "acquisition number"};
+      "image type",     "complex component", "private image type", "quantity",     "echo number",       "echo time",
+      "inversion time", "diffusion b-value", "temporal position",  "trigger time", "acquisition number",
+      "trigger delay",  "frame acquisition number", "time index",  "dimension index 1", "dimension index 2",
+      "dimension index 3", "dimension index 4",  "dimension index 5"};
   for (const char* attribute : attributes) {
     const std::string name = attribute;
     std::map<std::string, Planes, NaturalOrder> byValue;
@@ -176,7 +182,8 @@ void split(Part part, std::vector<Part>& out) {
       if ((name == "trigger time" || name == "acquisition number") && here < 2) sound = false;
     }
     if (!sound) continue;
-    const bool inTime = name == "temporal position" || name == "trigger time" || name == "acquisition number";
+    const bool inTime = name == "temporal position" || name == "trigger time" || name == "acquisition number" ||
+                        name == "trigger delay" || name == "time index";
     int rank = 0;
     for (auto& [value, planes] : byValue) {
       split({std::move(planes), part.told + (part.told.empty() ? "" : ", ") + name + " " + value.substr(0, 40),
@@ -222,7 +229,7 @@ void spaceSlices(const Planes& planes, const Eigen::Vector3d& normal, Series& se
   for (const Plane& p : planes) {
     const Eigen::Vector3d step = p.frame->position_lps_mm - first.position_lps_mm;
     const double aside = (step - step.dot(normal) * normal).norm();
-    if (aside > std::max(0.02, 0.002 * std::abs(step.dot(normal)))) {
+    if (aside > std::max(roundedWithin_mm, 0.002 * std::abs(step.dot(normal)))) {
       std::ostringstream why;
       why << "its slices are not stacked along their normal (gantry tilt): " << nameOf(p) << " lies " << aside
           << " mm to the side of " << nameOf(planes.front()) << "; resample it to a regular grid first";
@@ -230,44 +237,41 @@ void spaceSlices(const Planes& planes, const Eigen::Vector3d& normal, Series& se
       return;
     }
   }
-  double smallest = planes[1].along_mm - planes[0].along_mm;
-  for (std::size_t n = 1; n < planes.size(); ++n)
-    smallest = std::min(smallest, planes[n].along_mm - planes[n - 1].along_mm);
-  const double tolerance = 0.01 * smallest + 0.005;
-  std::vector<std::string> missing;
-  std::optional<std::size_t> uneven;
-  for (std::size_t n = 1; n < planes.size(); ++n) {
-    const double gap = planes[n].along_mm - planes[n - 1].along_mm;
-    const double whole = std::round(gap / smallest);
-    if (std::abs(gap - whole * smallest) > tolerance * whole) {
-      if (!uneven) uneven = n;
-    } else {
-      for (int m = 1; m < static_cast<int>(whole) && missing.size() < 10; ++m)
-        missing.push_back(positionText(planes[n - 1].along_mm + m * smallest) + " mm (between " +
-                          nameOf(planes[n - 1]) + " and " + nameOf(planes[n]) + ")");
-    }
-  }
+  std::vector<double> along_mm;
+  for (const Plane& p : planes) along_mm.push_back(p.along_mm);
+  const SliceStack stack = stackOf(along_mm);
+  const double smallest = stack.smallest_mm;
   series.grid.spacing_mm.z() = smallest;
-  if (uneven) {
+  if (!stack.even || !stack.missing.empty())
+    for (const Plane& p : planes) series.unevenSlices_mm.push_back(p.along_mm - planes.front().along_mm);
+  if (!stack.even) {
     std::ostringstream why;
-    why << "its slices are unevenly spaced: " << planes[*uneven].along_mm - planes[*uneven - 1].along_mm
-        << " mm between " << nameOf(planes[*uneven - 1]) << " and " << nameOf(planes[*uneven]) << ", " << smallest
-        << " mm elsewhere; no averaged spacing is made up";
+    why << "its slices are unevenly spaced: " << planes[stack.odd].along_mm - planes[stack.odd - 1].along_mm
+        << " mm between " << nameOf(planes[stack.odd - 1]) << " and " << nameOf(planes[stack.odd]) << ", "
+        << stack.step_mm << " mm elsewhere; no averaged spacing is made up";
     series.warnings.push_back(why.str());
     series.error = why.str();
-  } else if (!missing.empty()) {
+  } else if (!stack.missing.empty()) {
     std::string places;
-    for (const std::string& place : missing) places += (places.empty() ? "" : "; ") + place;
+    for (const SliceStack::Gap& gap : stack.missing)
+      places += (places.empty() ? "" : "; ") + positionText(gap.at_mm) + " mm (between " +
+                nameOf(planes[gap.before - 1]) + " and " + nameOf(planes[gap.before]) + ")";
     series.warnings.push_back("a slice is missing at " + places + " along the normal");
     series.error = "a slice is missing at " + places + " along the normal; add its file, or load a complete series";
   } else {
     series.grid.spacing_mm.z() =
         (planes.back().along_mm - planes.front().along_mm) / static_cast<double>(planes.size() - 1);
+    if (!stack.exact) {
+      series.grid.spacing_mm.z() = stack.step_mm;
+      series.grid.origin_lps_mm += (stack.first_mm - planes.front().along_mm) * normal;
+      tell(series, DiagnosticCode::PositionsRounded, {{"mm", stack.off_mm}, {"spacing_mm", stack.step_mm}});
+    }
     if (planes.size() == 2) series.warnings.push_back("has only 2 slices: too few for a 3-D model");
   }
-  if (first.statedSpacing_mm && std::abs(*first.statedSpacing_mm - smallest) > 0.02 * smallest + 0.005) {
+  const double taken_mm = series.grid.spacing_mm.z();
+  if (first.statedSpacing_mm && std::abs(*first.statedSpacing_mm - taken_mm) > 0.02 * taken_mm + 0.005) {
     std::ostringstream why;
-    why << "says that its slices are " << *first.statedSpacing_mm << " mm apart; their positions say " << smallest
+    why << "says that its slices are " << *first.statedSpacing_mm << " mm apart; their positions say " << taken_mm
         << " mm, which is used";
     series.warnings.push_back(why.str());
   }
@@ -286,7 +290,6 @@ Series describe(const ImageHeader& h) {
   s.colour = h.colour();
   s.studyDate = h.studyDate;
   s.grid.size = {h.sliceColumns(), h.sliceRows(), 1};
-  if (!h.unit.empty()) s.unit = h.unit;
   if (h.frameOfReferenceUid.empty())
     s.warnings.push_back("has no frame of reference: how it lies to others is unknown");
   return s;
@@ -295,11 +298,17 @@ Series describe(const ImageHeader& h) {
 void addFiles(const Planes& planes, Series& series) {
   const bool multi = planes.front().header->frames.size() > 1 || planes.front().header->isMosaic();
   for (const Plane& p : planes) {
-    if (multi) series.frames.push_back(p.frame->number);
-    if (multi && !series.files.empty() && series.files.back() == p.header->file) continue;
+    auto known = series.files.end();
+    if (multi) {
+      series.frames.push_back(p.frame->number);
+      known = std::find(series.files.begin(), series.files.end(), p.header->file);
+      series.fileOfSlice.push_back(static_cast<int>(known - series.files.begin()));
+    }
+    if (known != series.files.end()) continue;
     series.files.push_back(p.header->file);
     series.sopInstanceUids.push_back(p.header->sopInstanceUid);
   }
+  if (series.files.size() == 1) series.fileOfSlice.clear();
   std::map<std::string, Planes> warned;
   for (const Plane& p : planes)
     if (&p.header->frames.front() == p.frame || planes.size() == 1) {
@@ -319,6 +328,9 @@ Series volumeOf(Planes planes, const Eigen::Vector3d& normal) {
   const Frame& first = *planes.front().frame;
   Series s = describe(h);
   addFiles(planes, s);
+  std::vector<SliceFacts> facts;
+  for (const Plane& p : planes) facts.push_back({p.header, p.frame});
+  takeFacts(facts, s);
   s.grid.size.z() = static_cast<int>(planes.size());
   s.grid.spacing_mm = {first.columnSpacing_mm, first.rowSpacing_mm, 1.0};
   s.grid.origin_lps_mm = first.position_lps_mm;
@@ -327,9 +339,16 @@ Series volumeOf(Planes planes, const Eigen::Vector3d& normal) {
   s.grid.direction.col(2) = normal;
   for (const Plane& p : planes)
     if (const auto why = undecodable(p.header->layout.transferSyntax)) s.error = nameOf(p) + ": " + *why;
+  for (const Plane& p : planes)
+    if (!p.header->contradicted.empty() && !s.error)
+      s.error = nameOf(p) + " and '" + p.header->contradicted.filename().string() +
+                "' are one image by their SOP instance and position, but hold different pixels; which of the two is meant "
+                "is not known: remove the other one";
   if (s.error) return s;
   for (const Plane& p : planes)
-    if (planes.front().header->frames.size() > 1 && p.header != planes.front().header) {
+    if (planes.front().header->frames.size() > 1 && p.header != planes.front().header &&
+        (h.announced.concatenationUid.empty() ||
+         p.header->announced.concatenationUid != h.announced.concatenationUid)) {
       s.error =
           "it spreads over several multi-frame files: " + namesOf({planes.front(), p}) + "; load one of them alone";
       return s;
@@ -353,6 +372,7 @@ std::vector<Series> buildVolumes(const std::vector<ImageHeader>& headers) {
   if (const auto why = mixture(planes)) {
     Series s = describe(*planes.front().header);
     addFiles(planes, s);
+    takeFacts({{planes.front().header, planes.front().frame}}, s);
     s.grid.size.z() = static_cast<int>(planes.size());
     s.error = *why;
     return {s};
@@ -374,11 +394,23 @@ std::vector<Series> buildVolumes(const std::vector<ImageHeader>& headers) {
     if (step.vibration_Hz > 0.0) s.vibration_Hz = step.vibration_Hz;
     if (parts.size() > 1) {
       if (n > 0) s.uid += "#" + std::to_string(n + 1);
-      s.warnings.push_back("volume " + std::to_string(n + 1) + " of " + std::to_string(parts.size()) +
-                           " in one series, told apart by " + parts[n].told);
+      tell(s, DiagnosticCode::VolumeOfSeries,
+           {{"volume", static_cast<std::int64_t>(n + 1)},
+            {"volumes", static_cast<std::int64_t>(parts.size())},
+            {"told", parts[n].told}});
     }
     out.push_back(std::move(s));
   }
+  std::map<std::string, std::vector<const ImageHeader*>> cut;
+  for (const ImageHeader& h : headers)
+    if (!h.announced.concatenationUid.empty()) cut[h.announced.concatenationUid].push_back(&h);
+  for (const auto& [uid, pieces] : cut)
+    if (const std::string why = missingParts(pieces); !why.empty())
+      for (Series& s : out)
+        if (!s.error || !s.unevenSlices_mm.empty()) {
+          s.error = why;
+          s.unevenSlices_mm.clear();
+        }
   return out;
 }
 

@@ -1,6 +1,3 @@
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <memory>
 
@@ -8,6 +5,7 @@
 #include <dcmtk/dcmdata/dctk.h>
 
 #include "base/error.h"
+#include "base/part_file.h"
 #include "base/version.h"
 #include "dicom/detail/attributes.h"
 #include "dicom/detail/writer.h"
@@ -138,10 +136,20 @@ void checkReferable(const Series& source, const char* what) {
     throw BadInput(std::string(what) + " cannot refer to images without a SOP Instance UID");
 }
 
+namespace {
+
+/// Which of the series' files holds a slice.
+std::size_t fileOf(const Series& source, std::size_t slice) {
+  if (source.frames.empty()) return slice;
+  return source.fileOfSlice.empty() ? 0 : static_cast<std::size_t>(source.fileOfSlice[slice]);
+}
+
+}  // namespace
+
 void referToSlice(DcmItem& item, const Series& source, std::size_t slice) {
   Writer image(item);
   image.text(DCM_ReferencedSOPClassUID, source.sopClassUid);
-  image.text(DCM_ReferencedSOPInstanceUID, source.sopInstanceUids[source.frames.empty() ? slice : 0]);
+  image.text(DCM_ReferencedSOPInstanceUID, source.sopInstanceUids[fileOf(source, slice)]);
   if (!source.frames.empty()) image.number(DCM_ReferencedFrameNumber, source.frames[slice] + 1);
 }
 
@@ -205,19 +213,11 @@ void writeCodingSchemes(DcmDataset& data) {
 }
 
 void saveDicom(DcmFileFormat& format, const std::filesystem::path& file, E_TransferSyntax syntax) {
-  const auto temporary = file.parent_path() / ("." + file.filename().string() + ".part-" + std::to_string(getpid()));
-  std::error_code failed;
-  bool good = format.saveFile(temporary.c_str(), syntax, EET_ExplicitLength).good();
-  if (good) {
-    const int descriptor = open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
-    good = descriptor >= 0 && fsync(descriptor) == 0;
-    if (descriptor >= 0) close(descriptor);
-  }
-  if (good) std::filesystem::rename(temporary, file, failed);
-  if (good && !failed) return;
-  std::filesystem::remove(temporary, failed);
-  throw BadInput("'" + file.filename().string() +
-                 "' cannot be written; is the folder there, writable, and the disk not full?");
+  PartFile part(file);
+  if (format.saveFile(part.path().c_str(), syntax, EET_ExplicitLength).bad())
+    throw BadInput("'" + file.filename().string() +
+                   "' cannot be written; is the folder there, writable, and the disk not full?");
+  part.become();
 }
 
 }  // namespace glisson::dicom

@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "image/morphology.h"
 #include "image/resample.h"
+#include "roi/arrangement.h"
+#include "roi/interpolate.h"
 #include "roi/plane.h"
 
 namespace glisson::elastography {
@@ -109,6 +111,23 @@ struct Distances {
   double least_mm = 0.0, largest_mm = 0.0;
 };
 
+/// The polygons of the image slice that holds the polygon nearest to elastography slice k; their in-plane position is
+/// kept along the MRE normal. height: of every counted polygon, in MRE slices.
+std::vector<std::size_t> nearestMembers(const std::vector<std::vector<std::size_t>>& slices,
+                                        const std::vector<std::size_t>& counted, const std::vector<double>& height,
+                                        int k) {
+  const auto distance = [&](std::size_t c) { return std::abs(height[c] - k); };
+  const std::vector<std::size_t>* best = nullptr;
+  double nearest = std::numeric_limits<double>::max();
+  for (const std::vector<std::size_t>& members : slices)
+    for (std::size_t c = 0; c < counted.size(); ++c)
+      if (distance(c) < nearest && std::find(members.begin(), members.end(), counted[c]) != members.end()) {
+        nearest = distance(c);
+        best = &members;
+      }
+  return best != nullptr ? *best : std::vector<std::size_t>{};
+}
+
 /// Of slices at these heights (at least one) from the elastogram's slices.
 Distances planeDistances(const std::vector<double>& k, const image::Grid& mre) {
   Distances d{std::numeric_limits<double>::max(), 0.0};
@@ -136,9 +155,12 @@ MappedRoi mapRoi(const roi::ContourStack& contours, const std::optional<image::G
   }
   if (counted.empty()) throw BadInput("the region of interest has no polygon that counts (drafts do not)");
 
+  result.diagnostics = roi::outlineDoubts(contours, mriGrid.value_or(mreGrid), mriGrid.has_value());
   std::optional<image::Mask> onMri;
+  std::vector<std::vector<std::size_t>> onMriSlices;
   if (mriGrid) {
     onMri = roi::rasterise(contours, *mriGrid);
+    onMriSlices = roi::polygonsPerSlice(contours, *mriGrid);
     result.coverage = coverageOf(*onMri, mreGrid);
   }
   std::vector<double> height;  // of every counted polygon
@@ -152,6 +174,11 @@ MappedRoi mapRoi(const roi::ContourStack& contours, const std::optional<image::G
     const auto slices = roi::polygonsPerSlice(contours, mreGrid);
     result.coincidentSlices =
         static_cast<int>(std::count_if(slices.begin(), slices.end(), [](const auto& s) { return !s.empty(); }));
+    if (const std::size_t missing = roi::emptySlicesBetween(contours, mreGrid).size(); missing > 0)
+      result.diagnostics.add(
+          DiagnosticCode::SlicesWithoutOutline,
+          {{"missing", static_cast<std::int64_t>(missing)},
+           {"slices", static_cast<std::int64_t>(missing) + static_cast<std::int64_t>(result.coincidentSlices)}});
     // Without the MRI's slices the region's volume is taken as its area; several planes on one slice count each.
     double insideArea_mm2 = 0.0;
     for (std::size_t c = 0; c < counted.size(); ++c) {
@@ -186,11 +213,7 @@ MappedRoi mapRoi(const roi::ContourStack& contours, const std::optional<image::G
           ++result.sampledSlices;
         continue;
       }
-      std::vector<std::size_t> members;
-      for (std::size_t c = 0; c < counted.size(); ++c)
-        if (std::abs(height[c] - k) * mreGrid.spacing_mm.z() <= nearest_mm + 0.1 * mriGrid->spacing_mm.z())
-          members.push_back(counted[c]);
-      roi::fillSlice(result.mask, k, contours, members);  // in-plane position along the MRE normal
+      roi::fillSlice(result.mask, k, contours, nearestMembers(onMriSlices, counted, height, k));
       ++result.coincidentSlices;
     }
     // Few planes between two elastography slices: no voxel centre lies in an MRI slice that holds the region, though
@@ -205,6 +228,7 @@ MappedRoi mapRoi(const roi::ContourStack& contours, const std::optional<image::G
       }
     }
   }
+  for (const std::string& text : result.diagnostics.texts(Severity::Warning)) result.warnings.push_back(text);
   if (!contours.frameOfReferenceUid.empty() && !mreFrameOfReferenceUid.empty() &&
       contours.frameOfReferenceUid != mreFrameOfReferenceUid)
     result.warnings.push_back(

@@ -27,13 +27,19 @@ void warn(Measurement& m) {
   if (2 * m.pooled.n < before) {
     std::ostringstream few;
     few << "only " << m.pooled.n << " of " << before << " voxels count (" << m.lowConfidence
-        << " below the confidence, " << m.notPositive << " not positive, " << m.notFinite << " not finite)";
+        << " below the confidence, " << m.noConfidence << " without a confidence, " << m.notPositive
+        << " not positive, " << m.notFinite << " not finite)";
     m.warnings.push_back(few.str());
   } else if (m.notPositive + m.notFinite > 0) {
     std::ostringstream some;
     some << m.notPositive + m.notFinite << " of " << before << " voxels hold no stiffness and do not count ("
          << m.notPositive << " not positive, " << m.notFinite << " not finite)";
     m.warnings.push_back(some.str());
+  }
+  if (m.noConfidence > 0) {
+    m.diagnostics.add(DiagnosticCode::NoConfidenceThere, {{"voxels", static_cast<std::int64_t>(m.noConfidence)},
+                                                          {"of", static_cast<std::int64_t>(before)}});
+    m.warnings.push_back(m.diagnostics.texts().back());
   }
 }
 
@@ -167,7 +173,7 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
       } else if (value <= 0.0F) {
         ++m.notPositive;
       } else if (!trusted(map, v, options.confidenceThreshold)) {
-        ++m.lowConfidence;
+        ++(map.noConfidence && map.noConfidence->values[v] != 0 ? m.noConfidence : m.lowConfidence);
       } else {
         slice.push_back(static_cast<double>(value));
         counts.values[v] = 1;
@@ -193,8 +199,9 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
   }
   if (all.empty())
     throw BadInput("no voxel of the region of interest can be used: of " + std::to_string(before) + " voxels " +
-                   std::to_string(m.lowConfidence) + " lie below the confidence, " + std::to_string(m.notPositive) +
-                   " are not positive, " + std::to_string(m.notFinite) +
+                   std::to_string(m.lowConfidence) + " lie below the confidence, " + std::to_string(m.noConfidence) +
+                   " have no confidence value, " + std::to_string(m.notPositive) + " are not positive, " +
+                   std::to_string(m.notFinite) +
                    " are not finite; check the region, or lower the confidence threshold");
   m.pooled = statisticsOf(std::move(all), voxelArea_mm2);
   m.pooled.n_before_mask = before;

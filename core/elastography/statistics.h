@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "elastography/stiffness_map.h"
 
 namespace glisson::elastography {
@@ -54,7 +55,9 @@ struct Measurement {
   std::size_t notFinite = 0;            ///< left out: not finite
   std::size_t notPositive = 0;          ///< left out: ≤ 0
   std::size_t lowConfidence = 0;        ///< left out: finite, > 0, below the threshold
-  std::vector<std::string> warnings;    ///< "Pa or kPa?", most voxels left out
+  std::size_t noConfidence = 0;         ///< left out: finite, > 0, where the confidence map says nothing
+  std::vector<std::string> warnings;    ///< "Pa or kPa?", most voxels left out; texts of diagnostics among them
+  Diagnostics diagnostics;
 };
 
 /// Stiffness statistics inside a region of interest given on the map's own grid.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "base/error.h"
@@ -35,7 +36,31 @@ StiffnessMap makeStiffnessMap(image::ScalarVolume values, StiffnessQuantity quan
   return map;
 }
 
-void attachConfidence(StiffnessMap& map, const image::ScalarVolume& stored, std::optional<double> fullScale) {
+namespace {
+
+/// Largest values that are the full one of a scale in themselves: 8 bits, per mille, 10 and 12 bits.
+constexpr double wholeScales[] = {255.0, 1000.0, 1023.0, 4095.0};
+
+ConfidenceScale scaleOf(double largest, std::optional<double> fullScale) {
+  if (fullScale) {
+    if (!(*fullScale > 0.0)) throw BadInput("the full scale of a confidence map must be a positive number");
+    return {*fullScale, largest, false};
+  }
+  if (largest <= 1.0) return {1.0, largest, false};
+  if (largest >= defaults::confidenceThreshold * 999.0 && largest <= 999.0) return {999.0, largest, false};
+  for (const double whole : wholeScales)
+    if (largest == whole) return {whole, largest, true};
+  std::ostringstream why;
+  why << "the largest value of the confidence map is " << largest
+      << ", the full one of none of the known scales (0 to 1, 0 to 999); say which stored value means full confidence "
+         "(--confidence-scale), or give the confidence as fractions";
+  throw BadInput(why.str());
+}
+
+}  // namespace
+
+ConfidenceScale attachConfidence(StiffnessMap& map, const image::ScalarVolume& stored,
+                                 std::optional<double> fullScale) {
   double largest = 0.0;
   for (const float value : stored.values) {
     if (!std::isfinite(value)) continue;
@@ -46,26 +71,50 @@ void attachConfidence(StiffnessMap& map, const image::ScalarVolume& stored, std:
     }
     largest = std::max(largest, static_cast<double>(value));
   }
-  if (!fullScale) {
-    if (largest <= 1.0) {
-      fullScale = 1.0;
-    } else if (largest > 100.0 && largest <= 999.0) {
-      fullScale = 999.0;
-    } else {
-      std::ostringstream why;
-      why << "the largest value of the confidence map is " << largest
-          << ", neither a fraction (0 to 1) nor the 0 to 999 scale; say which stored value means full confidence";
-      throw BadInput(why.str());
-    }
-  }
-  if (!(*fullScale > 0.0)) throw BadInput("the full scale of a confidence map must be a positive number");
+  const ConfidenceScale scale = scaleOf(largest, fullScale);
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
   image::ScalarVolume confidence = stored.grid.sameGeometry(map.values_kPa.grid)
                                        ? stored
-                                       : image::resampleNearest(stored, map.values_kPa.grid, 0.0F);
+                                       : image::resampleNearest(stored, map.values_kPa.grid, none);
   confidence.grid = map.values_kPa.grid;
-  for (float& v : confidence.values)
-    v = std::isfinite(v) ? static_cast<float>(std::clamp(static_cast<double>(v) / *fullScale, 0.0, 1.0)) : 0.0F;
+  image::Mask missing(confidence.grid);
+  bool any = false;
+  for (std::size_t v = 0; v < confidence.values.size(); ++v) {
+    float& value = confidence.values[v];
+    if (std::isfinite(value)) {
+      value = static_cast<float>(std::clamp(static_cast<double>(value) / scale.full, 0.0, 1.0));
+    } else {
+      value = 0.0F;
+      missing.values[v] = 1;
+      any = true;
+    }
+  }
   map.confidence = std::move(confidence);
+  map.noConfidence.reset();
+  if (any) map.noConfidence = std::move(missing);
+  return scale;
+}
+
+Diagnostics doubtsAboutConfidence(const StiffnessMap& map, const ConfidenceScale& scale) {
+  Diagnostics doubts;
+  if (scale.guessed)
+    doubts.add(DiagnosticCode::ConfidenceScaleTaken, {{"largest", scale.largest}, {"scale", scale.full}});
+  if (!map.noConfidence) return doubts;
+  const image::Mask& missing = *map.noConfidence;
+  const std::size_t perSlice = missing.grid.linear(0, 0, 1);
+  std::size_t without = 0;
+  std::string slices;
+  for (int k = 0; k < missing.grid.size.z(); ++k) {
+    const auto begin = missing.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(k) * perSlice);
+    const auto here =
+        static_cast<std::size_t>(std::count(begin, begin + static_cast<std::ptrdiff_t>(perSlice), std::uint8_t{1}));
+    without += here;
+    if (here == perSlice) slices += (slices.empty() ? "" : ", ") + std::to_string(k);
+  }
+  const double covered = 100.0 * (1.0 - static_cast<double>(without) / static_cast<double>(missing.values.size()));
+  doubts.add(DiagnosticCode::ConfidenceCoversLess,
+             {{"percent", covered}, {"slices", slices.empty() ? std::string("none") : slices}});
+  return doubts;
 }
 
 StiffnessMap toQuantity(const StiffnessMap& map, StiffnessQuantity quantity, double poisson) {

@@ -47,14 +47,16 @@ class VtkXml {
     matrix("Points", p);
     line("</Points>");
   }
-  std::string text() const {
+  /// space: say in the field data, too, that points are LPS, as 3D Slicer does; readers of unstructured grids other than
+  /// VTK's know no texts there.
+  std::string text(bool space) const {
     const std::string type(type_);
+    const std::string fieldData = "<FieldData>\n<Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" "
+                                  "format=\"ascii\">\n76 80 83 0\n</Array>\n</FieldData>\n";  // "LPS" as character codes
     return "<?xml version=\"1.0\"?>\n<!-- points in mm, LPS; research use only, not for clinical use -->\n<VTKFile "
            "type=\"" +
            type + "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<" + type +
-           ">\n<FieldData>\n<Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" format=\"ascii\">\n" +
-           "76 80 83 0\n</Array>\n</FieldData>\n" +  // "LPS" as character codes
-           xml_ + "</" + type + ">\n<AppendedData encoding=\"raw\">\n_" + data_ + "\n</AppendedData>\n</VTKFile>\n";
+           ">\n" + (space ? fieldData : std::string()) + xml_ + "</" + type + ">\n<AppendedData encoding=\"raw\">\n_" + data_ + "\n</AppendedData>\n</VTKFile>\n";
   }
 
  private:
@@ -156,7 +158,7 @@ void writeVtu(const std::filesystem::path& file, const HexMesh& mesh) {
   constexpr std::uint8_t hexahedron = 12;
   xml.array("UInt8", "types", 1, std::vector<std::uint8_t>(static_cast<std::size_t>(cells), hexahedron));
   xml.line("</Cells>\n</Piece>");
-  writeTextFile(file, xml.text());
+  writeTextFile(file, xml.text(false));
 }
 
 void writeVtp(const std::filesystem::path& file, const anatomy::TriangleMesh& mesh,
@@ -171,7 +173,7 @@ void writeVtp(const std::filesystem::path& file, const anatomy::TriangleMesh& me
             std::vector<std::int64_t>(mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size()));
   xml.array("Int64", "offsets", 1, ends(cells, 3));
   xml.line("</Polys>\n</Piece>");
-  writeTextFile(file, xml.text());
+  writeTextFile(file, xml.text(true));
 }
 
 void writePvd(const std::filesystem::path& file, const std::vector<std::pair<double, std::string>>& timeAndFile) {

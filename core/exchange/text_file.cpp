@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/part_file.h"
 
 namespace glisson::exchange {
 
@@ -13,16 +14,15 @@ void writeTextFile(const std::filesystem::path& file, const std::function<void(s
   std::error_code ec;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ec);
   if (ec) throw BadInput("cannot make the folder of '" + name + "': " + ec.message());
-  const std::filesystem::path beside = file.string() + ".part";
+  PartFile part(file);
   {
-    std::ofstream out(beside, std::ios::binary);
+    std::ofstream out(part.path(), std::ios::binary);
     out.imbue(std::locale::classic());
     write(out);
     out.flush();
     if (!out) throw BadInput("cannot write '" + name + "'; is the disk full or the folder read-only?");
   }
-  std::filesystem::rename(beside, file, ec);
-  if (ec) throw BadInput("cannot write '" + name + "': " + ec.message());
+  part.become();
 }
 
 void writeTextFile(const std::filesystem::path& file, const std::string& text) {

@@ -2,7 +2,7 @@
 
 #include <zlib.h>
 
-#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "image/detail/text_header.h"
 
 namespace glisson::image {
 namespace {
@@ -63,66 +64,62 @@ double inflatedSize(std::istream& in, double limit) {
 
 }  // namespace
 
-void checkMetaImage(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw BadInput(quoted(file) + " cannot be opened");
-  std::map<std::string, std::string> fields;
-  std::string line;
-  while (fields.size() < 200 && line.size() < 4096 && !fields.contains("ElementDataFile") && std::getline(in, line)) {
-    const std::size_t equals = line.find('=');
-    if (equals == std::string::npos) break;
-    const auto trimmed = [](const std::string& s) {
-      const std::size_t first = s.find_first_not_of(" \t\r");
-      return first == std::string::npos ? std::string() : s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
-    };
-    fields[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
-  }
-  double needed = bytesOfMetaType(fields["ElementType"]);
-  std::istringstream sizes(fields["DimSize"]);
-  for (double n = 0.0; sizes >> n;) needed *= n;
-  if (fields["ElementDataFile"].empty() || fields["DimSize"].empty() || needed <= 0.0)
-    throw BadInput(quoted(file) + " is no MetaImage with a readable header");
-  if (fields.contains("ElementNumberOfChannels")) {
-    double channels = 1.0;
-    std::istringstream(fields["ElementNumberOfChannels"]) >> channels;
-    needed *= channels;
-  }
-  std::ifstream detached;
-  const bool local = lowerCase(fields["ElementDataFile"]) == "local";
-  if (!local) {
-    detached.open(file.parent_path() / fields["ElementDataFile"], std::ios::binary);
-    if (!detached) throw BadInput(quoted(file) + " keeps its voxels in another file, which is not there as one file");
-  }
-  std::istream& data = local ? in : detached;
-  double there = 0.0;
-  if (lowerCase(fields["CompressedData"]) == "true") {
-    there = inflatedSize(data, needed);
-  } else {
-    const auto begin = data.tellg();
-    data.seekg(0, std::ios::end);
-    there = static_cast<double>(data.tellg() - begin);
-  }
-  if (there < needed) truncated(file, needed, there);
+namespace {
+
+/// Fields with one number for each axis, and with one for each pair of them: the library reads as many as it is told.
+void checkLists(const detail::TextHeader& h, const std::filesystem::path& file, std::size_t axes) {
+  const auto wrong = [&](const char* name, std::size_t expected) {
+    const auto numbers = h.numbers(name);
+    if (h.fields.contains(name) && (!numbers || numbers->size() != expected))
+      throw BadInput(quoted(file) + " has a damaged MetaImage header: " + name + " is not " + std::to_string(expected) +
+                     " numbers");
+  };
+  for (const char* name : {"DimSize", "Offset", "Position", "Origin", "CenterOfRotation", "ElementSpacing", "ElementSize"})
+    wrong(name, axes);
+  for (const char* name : {"TransformMatrix", "Rotation", "Orientation"}) wrong(name, axes * axes);
 }
 
-void checkNrrd(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw BadInput(quoted(file) + " cannot be opened");
-  std::string line;
-  for (int n = 0; n < 1000 && std::getline(in, line) && line.size() < 4096; ++n) {
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
-    if (line.empty()) return;  // the voxels follow in this file
-    const std::size_t colon = line.find(':');
-    if (colon == std::string::npos) continue;
-    const std::string field = lowerCase(line.substr(0, colon));
-    if (field != "data file" && field != "datafile") continue;
-    const std::size_t first = line.find_first_not_of(" \t", colon + 1);
-    const std::string name = first == std::string::npos ? std::string() : line.substr(first);
-    std::error_code failed;
-    if (!std::filesystem::is_regular_file(file.parent_path() / name, failed))
-      throw BadInput(quoted(file) + " keeps its voxels in another file, which is not there as one file");
-    return;
+}  // namespace
+
+void checkMetaImage(const std::filesystem::path& file, Diagnostics* doubts) {
+  const detail::TextHeader h = detail::readMetaHeader(file);
+  const auto damaged = [&file](const std::string& what) {
+    throw BadInput(quoted(file) + " has a damaged MetaImage header: " + what);
+  };
+  constexpr std::size_t longestName = 200, longestValue = 4000;
+  for (const auto& [name, value] : h.fields)
+    if (name.size() > longestName || value.size() > longestValue) damaged("a line of it is too long");
+  const auto axes = h.numbers("NDims"), sizes = h.numbers("DimSize");
+  double needed = bytesOfMetaType(h.field("ElementType"));
+  if (h.field("ElementDataFile").empty() || h.field("DimSize").empty() || needed <= 0.0)
+    throw BadInput(quoted(file) + " is no MetaImage with a readable header");
+  if (!axes || axes->size() != 1 || (*axes)[0] < 1 || (*axes)[0] > 4 || (*axes)[0] != std::floor((*axes)[0]))
+    damaged("NDims is no whole number from 1 to 4");
+  checkLists(h, file, static_cast<std::size_t>((*axes)[0]));
+  for (const double n : *sizes) {
+    if (n < 1 || n > 2147483647.0 || n != std::floor(n)) damaged("DimSize holds no whole numbers from 1 on");
+    needed *= n;
   }
+  if (h.fields.contains("ElementNumberOfChannels")) {
+    const auto channels = h.numbers("ElementNumberOfChannels");
+    if (!channels || channels->size() != 1 || (*channels)[0] < 1 || (*channels)[0] > 256)
+      damaged("ElementNumberOfChannels is no number from 1 to 256");
+    needed *= (*channels)[0];
+  }
+  const bool local = lowerCase(h.field("ElementDataFile")) == "local";
+  const std::filesystem::path data = local ? file : detail::voxelFile(file, h.field("ElementDataFile"));
+  const auto bytes = static_cast<double>(std::filesystem::file_size(data));
+  const auto skip = h.numbers("HeaderSize");
+  if (!skip || skip->size() > 1 || (!skip->empty() && ((*skip)[0] < -1 || (*skip)[0] > bytes)))
+    damaged("HeaderSize leads beyond the file");
+  std::ifstream in(data, std::ios::binary);
+  if (local) in.seekg(static_cast<std::streamoff>(h.bytes));
+  const double there = lowerCase(h.field("CompressedData")) == "true"
+                           ? inflatedSize(in, needed)
+                           : bytes - (local ? static_cast<double>(h.bytes) : 0.0);
+  if (there < needed) truncated(file, needed, there);
+  if (doubts != nullptr && !h.fields.contains("Offset") && !h.fields.contains("Position") && !h.fields.contains("Origin"))
+    doubts->add(DiagnosticCode::VolumePlaceUnknown, {{"missing", std::string("Offset")}});
 }
 
 }  // namespace glisson::image

@@ -17,9 +17,11 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/part_file.h"
 #include "base/text.h"
 #include "image/completeness.h"
 #include "image/detail/nifti.h"
+#include "image/detail/nrrd.h"
 
 namespace glisson::image {
 namespace {
@@ -198,12 +200,13 @@ void convertAny(ImageIO::IOComponentEnum type, const std::vector<char>& bytes, s
 }
 
 template <typename T>
-Volume<T> fromNifti(const std::filesystem::path& file) {
+Volume<T> fromNifti(const std::filesystem::path& file, Diagnostics* doubts) {
   using Type = ImageIO::IOComponentEnum;
   static const std::map<int, Type> types = {
       {2, Type::UCHAR},  {4, Type::SHORT},    {8, Type::INT},    {16, Type::FLOAT},      {64, Type::DOUBLE},
       {256, Type::CHAR}, {512, Type::USHORT}, {768, Type::UINT}, {1024, Type::LONGLONG}, {1280, Type::ULONGLONG}};
   const detail::NiftiFile nifti = detail::readNifti(file, maxVoxelBytes);
+  if (doubts != nullptr) doubts->add(nifti.doubts);
   Volume<T> volume;
   volume.grid = nifti.grid;
   volume.values.resize(volume.grid.voxelCount());
@@ -212,16 +215,16 @@ Volume<T> fromNifti(const std::filesystem::path& file) {
 }
 
 template <typename T>
-Volume<T> read(const std::filesystem::path& file) {
+Volume<T> read(const std::filesystem::path& file, Diagnostics* doubts) {
   const Format format = formatOf(file);
   if (format == Format::Unknown)
     throw BadInput(quoted(file) + " is no volume file by its extension (.nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd)");
   std::error_code failed;
   if (!std::filesystem::is_regular_file(file, failed)) throw BadInput(quoted(file) + " is not there, or is no file");
-  if (format == Format::Meta) checkMetaImage(file);
-  if (format == Format::Nrrd) checkNrrd(file);
+  if (format == Format::Meta) checkMetaImage(file, doubts);
+  const detail::TextHeader nrrd = format == Format::Nrrd ? detail::checkedNrrd(file) : detail::TextHeader{};
   try {
-    if (format == Format::Nifti || format == Format::NiftiGz) return fromNifti<T>(file);
+    if (format == Format::Nifti || format == Format::NiftiGz) return fromNifti<T>(file, doubts);
     const QuietStderr quiet;
     const ImageIO::Pointer io = makeIO(format);
     if (!io->CanReadFile(file.c_str()))
@@ -230,6 +233,7 @@ Volume<T> read(const std::filesystem::path& file) {
     io->ReadImageInformation();
     Volume<T> volume;
     volume.grid = gridOf(*io, file);
+    if (format == Format::Nrrd) detail::completeNrrd(nrrd, file, volume.grid, doubts);
     const double bytes = static_cast<double>(volume.grid.voxelCount()) * io->GetComponentSize();
     const bool detached = file.extension() == ".nhdr" || file.extension() == ".mhd";
     const auto fileBytes = static_cast<double>(std::filesystem::file_size(file));
@@ -254,22 +258,6 @@ Volume<T> read(const std::filesystem::path& file) {
   }
 }
 
-/// Moves a finished file to its name so that a crash leaves the old file or the new one, never half of one.
-void publish(const std::filesystem::path& temporary, const std::filesystem::path& file) {
-  const int descriptor = open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor >= 0) {
-    fsync(descriptor);
-    close(descriptor);
-  }
-  std::filesystem::rename(temporary, file);
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  const int directory = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (directory >= 0) {
-    fsync(directory);
-    close(directory);
-  }
-}
-
 void write(const std::filesystem::path& file, const Grid& grid, ImageIO::IOComponentEnum type, unsigned components,
            const void* data) {
   const Format format = formatOf(file);
@@ -280,14 +268,13 @@ void write(const std::filesystem::path& file, const Grid& grid, ImageIO::IOCompo
     throw BadInput(quoted(file) +
                    ": NIfTI readers disagree on the axes of vectors; write a displacement field as .nrrd or .mha");
   const char* ending = format == Format::NiftiGz ? ".nii.gz" : format == Format::Nifti ? ".nii" : nullptr;
-  const auto temporary = file.parent_path() / ("." + file.stem().string() + ".part-" + std::to_string(getpid()) +
-                                               (ending != nullptr ? ending : extension));
   std::error_code ignored;
   if (!std::filesystem::is_directory(file.has_parent_path() ? file.parent_path() : ".", ignored))
     throw BadInput(quoted(file) + " cannot be written: its folder is not there");
+  PartFile part(file, ending != nullptr ? ending : extension);
   try {
     const ImageIO::Pointer io = makeIO(format);
-    io->SetFileName(temporary.string());
+    io->SetFileName(part.path().string());
     io->SetNumberOfDimensions(3);
     itk::ImageIORegion region(3);
     for (unsigned axis = 0; axis < 3; ++axis) {
@@ -306,28 +293,24 @@ void write(const std::filesystem::path& file, const Grid& grid, ImageIO::IOCompo
     io->SetUseCompression(format != Format::Nifti);
     io->WriteImageInformation();
     io->Write(data);
-    publish(temporary, file);
+    part.become();
   } catch (const itk::ExceptionObject&) {
-    std::filesystem::remove(temporary, ignored);
-    throw BadInput(quoted(file) + " cannot be written; is the folder there, writable, and the disk not full?");
-  } catch (const std::filesystem::filesystem_error&) {
-    std::filesystem::remove(temporary, ignored);
     throw BadInput(quoted(file) + " cannot be written; is the folder there, writable, and the disk not full?");
   }
 }
 
 }  // namespace
 
-ScalarVolume readVolume(const std::filesystem::path& file) {
-  return read<float>(file);
+ScalarVolume readVolume(const std::filesystem::path& file, Diagnostics* doubts) {
+  return read<float>(file, doubts);
 }
 
-LabelMap readLabelMap(const std::filesystem::path& file) {
-  return read<std::int32_t>(file);
+LabelMap readLabelMap(const std::filesystem::path& file, Diagnostics* doubts) {
+  return read<std::int32_t>(file, doubts);
 }
 
-Mask readMask(const std::filesystem::path& file, int label) {
-  const LabelMap labels = readLabelMap(file);
+Mask readMask(const std::filesystem::path& file, int label, Diagnostics* doubts) {
+  const LabelMap labels = readLabelMap(file, doubts);
   Mask mask(labels.grid);
   bool any = false;
   for (std::size_t n = 0; n < labels.values.size(); ++n) {

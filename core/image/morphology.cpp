@@ -76,4 +76,11 @@ Mask dilate(const Mask& mask, double radius_mm) {
   return result;
 }
 
+bool overlap(const Mask& a, const Mask& b) {
+  if (a.values.size() != b.values.size()) throw BadArgument("overlap: the masks are of different sizes");
+  for (std::size_t v = 0; v < a.values.size(); ++v)
+    if (a.values[v] != 0 && b.values[v] != 0) return true;
+  return false;
+}
+
 }  // namespace glisson::image

@@ -21,6 +21,9 @@ Mask dilate(const Mask& mask, double radius_mm);
 /// Number of voxels inside.
 std::size_t count(const Mask& mask);
 
+/// Whether a voxel lies inside both. Throws BadArgument where the masks are of different sizes.
+bool overlap(const Mask& a, const Mask& b);
+
 /// Smallest and largest index inside along each axis; nothing for an empty mask.
 struct Extent {
   Eigen::Vector3i low, high;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -164,6 +165,56 @@ Grid gridOf(const Header& h) {
   return grid;
 }
 
+/// The smallest rotation, in degrees, between axes, whichever of them is mirrored.
+double turnedBy(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
+  const Eigen::Matrix3d r = from.transpose() * to;
+  double least = 180.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Matrix3d turn = r;
+    if (r.determinant() < 0.0) turn.col(axis) *= -1.0;
+    const double cosine = std::clamp(0.5 * (turn.trace() - 1.0), -1.0, 1.0);
+    least = std::min(least, std::acos(cosine) * 180.0 / std::numbers::pi);
+  }
+  return least;
+}
+
+/// What is doubtful about the place that gridOf took.
+Diagnostics doubtsAbout(const Header& h, const Grid& grid) {
+  constexpr double same_mm = 0.1, sameStep = 0.01;
+  Diagnostics doubts;
+  const bool hasSform = h.number16(254) > 0, hasQform = h.number16(252) > 0;
+  if (!hasSform && !hasQform)
+    doubts.add(DiagnosticCode::VolumePlaceUnknown, {{"missing", std::string("qform or sform")}});
+  if (!hasSform) return doubts;
+  const Affine s = sform(h);
+  const bool steps = h.step(1) > 0.0 && h.step(2) > 0.0 && h.step(3) > 0.0;
+  if (hasQform && steps) {
+    const Affine q = ofSteps(h, true);
+    double apart_mm = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector4d index(corner & 1 ? grid.size.x() - 1 : 0, corner & 2 ? grid.size.y() - 1 : 0,
+                                  corner & 4 ? grid.size.z() - 1 : 0, 1.0);
+      apart_mm = std::max(apart_mm, ((s - q) * index).norm() * grid.spacing_mm.x() / s.col(0).norm());
+    }
+    const Eigen::Matrix3d axesS = s.leftCols<3>().colwise().normalized(), axesQ = q.leftCols<3>().colwise().normalized();
+    const bool mirrored = axesS.determinant() * axesQ.determinant() < 0.0;
+    if (apart_mm > same_mm || mirrored)
+      doubts.add(DiagnosticCode::NiftiFormsDiffer,
+                 {{"mm", apart_mm},
+                  {"degrees", turnedBy(axesQ, axesS)},
+                  {"handedness", std::string(mirrored ? "mirrored" : "not mirrored")}});
+    return doubts;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const double said = std::abs(h.step(axis + 1)), taken = s.col(axis).norm();
+    if (!(said > 0.0) || std::abs(said - taken) <= sameStep * taken) continue;
+    const double mm = grid.spacing_mm[axis] / taken;
+    doubts.add(DiagnosticCode::NiftiStepsDiffer, {{"pixdim_mm", mm * said}, {"sform_mm", mm * taken}});
+    break;
+  }
+  return doubts;
+}
+
 /// Bytes of a value of a datatype with one value per voxel; 0 for any other.
 std::size_t bytesOfNiftiType(int datatype) {
   static const std::map<int, std::size_t> sizes = {{2, 1},   {4, 2},   {8, 4},   {16, 4},   {64, 8},
@@ -203,6 +254,7 @@ NiftiFile readNifti(const std::filesystem::path& file, double mostBytes) {
   checkShape(header);
   NiftiFile out;
   out.grid = gridOf(header);
+  out.doubts = doubtsAbout(header, out.grid);
   out.datatype = header.number16(70);
   const std::size_t size = bytesOfNiftiType(out.datatype), voxels = out.grid.voxelCount();
   // Voxels read from another place than they were written to would be shifted and look like an image.

@@ -1,15 +1,20 @@
 #include "live/server.h"
 
+#include <arpa/inet.h>
 #include <igtlMessageHeader.h>
 #include <igtlPointMessage.h>
 #include <igtlServerSocket.h>
 #include <igtlStringMessage.h>
 #include <igtlTransformMessage.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <cstdio>
 #include <mutex>
 #include <optional>
@@ -27,6 +32,51 @@ constexpr int largestBody = 1 << 20;
 
 double ms(Clock::duration d) {
   return std::chrono::duration<double, std::milli>(d).count();
+}
+
+/// The library's server on an address of choice; by itself it listens on all of them.
+class Server : public igtl::ServerSocket {
+ public:
+  using Self = Server;
+  using Pointer = igtl::SmartPointer<Self>;
+  static Pointer New() {
+    Pointer made = new Self;
+    made->UnRegister();
+    return made;
+  }
+  bool open(const std::string& address, int port) {
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_port = htons(static_cast<std::uint16_t>(port));
+    if (inet_pton(AF_INET, address.c_str(), &at.sin_addr) != 1) return false;
+    const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    if (descriptor < 0) return false;
+    const int yes = 1;
+    setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    if (::bind(descriptor, reinterpret_cast<const sockaddr*>(&at), sizeof at) != 0 || ::listen(descriptor, 5) != 0) {
+      ::close(descriptor);
+      return false;
+    }
+    m_SocketDescriptor = descriptor;
+    return true;
+  }
+
+ protected:
+  Server() = default;
+};
+
+/// Whether a TRANSFORM's body is as long as its version asks for: 48 bytes; from version 2 on behind a header of its own
+/// that says how long it and the metadata are.
+bool soundTransform(int version, const unsigned char* body, int size) {
+  constexpr int matrix = 48, extended = 12;
+  if (version == 1) return size == matrix;
+  if (size < extended + matrix) return false;
+  const auto number = [body](int at, int bytes) {
+    std::int64_t n = 0;
+    for (int b = 0; b < bytes; ++b) n = 256 * n + body[at + b];
+    return n;
+  };
+  return number(0, 2) == extended && number(2, 2) + number(4, 4) + extended + matrix == size;
 }
 
 /// The last pose that came in, handed from the receiving thread to the sending one.
@@ -109,7 +159,9 @@ void receive(igtl::Socket& socket, const Eigen::Vector3d& rest_mm, bool ras, Pos
     igtl::TransformMessage::Pointer message = igtl::TransformMessage::New();
     message->SetMessageHeader(header);
     message->AllocatePack();
-    if (!readAll(socket, message->GetPackBodyPointer(), message->GetPackBodySize(), stop)) break;
+    if (static_cast<int>(message->GetPackBodySize()) != size) break;
+    if (!readAll(socket, message->GetPackBodyPointer(), size, stop)) break;
+    if (!soundTransform(version, static_cast<const unsigned char*>(message->GetPackBodyPointer()), size)) break;
     if (!(message->Unpack(1) & igtl::MessageHeader::UNPACK_BODY)) continue;  // the checksum is wrong
     igtl::Matrix4x4 matrix;
     message->GetMatrix(matrix);
@@ -207,10 +259,11 @@ ServerStatistics serve(const retraction::LiveRetraction& mre, const retraction::
     throw BadArgument("serve: the models do not watch the landmarks that were given");
   if (!(options.rate_hz > 0.0 && options.rate_hz <= 1000.0))
     throw BadInput("the rate must be above 0 and at most 1000 Hz");
-  igtl::ServerSocket::Pointer server = igtl::ServerSocket::New();
-  if (server->CreateServer(options.port) < 0)
-    throw BadInput("port " + std::to_string(options.port) +
-                   " cannot be opened; is another program using it? give --port");
+  const Server::Pointer server = Server::New();
+  if (!server->open(options.bind, options.port))
+    throw BadInput("port " + std::to_string(options.port) + " of " + options.bind +
+                   " cannot be opened; is another program using it (--port), or is it no address of this computer "
+                   "(--bind)?");
   if (listening) listening(server->GetServerPort());
 
   ServerStatistics s;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "base/progress.h"
@@ -11,6 +12,7 @@ namespace glisson::live {
 
 struct ServerOptions {
   int port = 18944;             ///< OpenIGTLink's own; 0 = any free one
+  std::string bind = "127.0.0.1";  ///< address to listen on: this computer alone; "0.0.0.0" for every network
   double rate_hz = 60.0;        ///< messages a second while the tool rests; a new pose is answered at once
   std::size_t landmarks = 200;  ///< sent at most, spread evenly over those there are
   bool ras = true;              ///< coordinates of all messages: RAS as 3D Slicer expects, else LPS; always mm
@@ -33,9 +35,10 @@ struct ServerStatistics {
 ///             TRANSFORM "RetractorReached" where the tool is, as it was taken
 ///             STRING "RetractorForce"     "x y z" in N that the tool pulls with (measured stiffness)
 /// Until a pose arrives the scene's own hoist acts. Before the first message nothing moves; a pose more than 100 mm
-/// from the contact's rest, or not finite, is ignored. Carries no identity of the patient; listens on all interfaces,
-/// as OpenIGTLink's library does: use it on a network of one's own. landmarks_mm: at rest, LPS, as both models watch
-/// them. listening: called with the port once it can be connected to. Throws BadInput where the port cannot be opened.
+/// from the contact's rest, or not finite, is ignored; a message whose body has another size than its type asks for ends
+/// the connection. Carries no identity of the patient; the protocol knows no password, so beyond this computer use it on
+/// a network of one's own. landmarks_mm: at rest, LPS, as both models watch
+/// them. listening: called with the port once it can be connected to. Throws BadInput where the address or the port cannot be opened.
 ServerStatistics serve(const retraction::LiveRetraction& mre, const retraction::LiveRetraction* atlas,
                        const std::vector<Eigen::Vector3d>& landmarks_mm, const ServerOptions& options,
                        const std::function<void(int)>& listening = {}, const Progress& progress = {});

@@ -85,13 +85,17 @@ class CondensedDynamics {
   double time_s() const { return t_s_; }
   /// Displacement of every landmark, m.
   void evaluate(Eigen::VectorXd& u_m) const { u_m.noalias() = L_ * q_; }
+  /// Velocity (m/s) and acceleration (m/s², change of velocity over the last step) of every landmark.
+  void evaluateRates(Eigen::VectorXd& v_m_s, Eigen::VectorXd& a_m_s2) const;
+  /// mechanics::isAtRest as far as these vectors show it: a necessary condition for that of the body.
+  bool isAtRest(const Eigen::VectorXd& amount, double tolerance) const;
   /// ½ vᵀMv + ½ qᵀKq, J.
   double energy_J() const { return 0.5 * v_.squaredNorm() + 0.5 * q_.dot(K_ * q_); }
 
  private:
   CondensedDynamicOptions options_;
   Eigen::MatrixXd K_, F_, L_, inverse_;  ///< in the basis, where M is the identity
-  Eigen::VectorXd q_, v_;
+  Eigen::VectorXd q_, v_, a_;
   double t_s_ = 0.0;
 };
 

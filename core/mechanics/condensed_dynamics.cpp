@@ -166,7 +166,7 @@ CondensedDynamics::CondensedDynamics(StaticSolver& solver, const std::vector<Nod
 
 void CondensedDynamics::reset() {
   q_ = Eigen::VectorXd::Zero(K_.rows());
-  v_ = q_;
+  v_ = a_ = q_;
   t_s_ = 0.0;
 }
 
@@ -176,9 +176,23 @@ void CondensedDynamics::step(const Eigen::VectorXd& amount) {
                       std::to_string(inputs()) + " inputs");
   const double h = options_.h_s, alpha = options_.rayleighAlpha_1_s, beta = options_.rayleighBeta_s;
   const Eigen::VectorXd b = h * (F_ * amount - K_ * (q_ + (h + beta) * v_) - alpha * v_);
-  v_ += inverse_ * b;
+  const Eigen::VectorXd gain = inverse_ * b;
+  v_ += gain;
+  a_ = gain / h;
   q_ += h * v_;
   t_s_ += h;
+}
+
+void CondensedDynamics::evaluateRates(Eigen::VectorXd& v_m_s, Eigen::VectorXd& a_m_s2) const {
+  v_m_s.noalias() = L_ * v_;
+  a_m_s2.noalias() = L_ * a_;
+}
+
+bool CondensedDynamics::isAtRest(const Eigen::VectorXd& amount, double tolerance) const {
+  const Eigen::VectorXd f = F_ * amount;
+  const double size = f.norm();
+  return mechanics::isAtRest(size > 0.0 ? (f - K_ * q_).norm() / size : 0.0, options_.h_s * v_.norm(), q_.norm(),
+                             tolerance);
 }
 
 }  // namespace glisson::mechanics

@@ -8,16 +8,14 @@
 namespace glisson::mechanics {
 namespace {
 
+[[noreturn]] void refuse(const std::string& what, double value) {
+  throw BadInput("dynamics: " + what + ", not " + std::to_string(value));
+}
+
 void checkOptions(const DynamicOptions& o) {
-  const auto refuse = [](const std::string& what, double value) {
-    throw BadInput("dynamics: " + what + ", not " + std::to_string(value));
-  };
-  if (!(o.h_s > 0.0) || !std::isfinite(o.h_s)) refuse("the time step must be positive", o.h_s);
-  if (!(o.end_s >= 0.0) || !std::isfinite(o.end_s)) refuse("the end time must be 0 or more", o.end_s);
   if (!(o.rayleighAlpha_1_s >= 0.0)) refuse("Rayleigh alpha must be 0 or more", o.rayleighAlpha_1_s);
   if (!(o.rayleighBeta_s >= 0.0)) refuse("Rayleigh beta must be 0 or more", o.rayleighBeta_s);
   if (!(o.ramp_s >= 0.0)) refuse("the ramp must be 0 or more seconds", o.ramp_s);
-  if (o.end_s / o.h_s > 1e9) refuse("at most 1e9 steps: use a larger time step", o.end_s / o.h_s);
 }
 
 int severity(SolveStatus status) {
@@ -41,10 +39,13 @@ void merge(SolveReport& worst, const SolveReport& step, bool first) {
     return;
   }
   const double seconds = worst.seconds + step.seconds;
+  Diagnostics said = worst.diagnostics;
+  said.add(step.diagnostics);
   const SolveStatus status = severity(step.status) > severity(worst.status) ? step.status : worst.status;
   if (!(step.residual <= worst.residual)) worst = step;
   worst.status = status;
   worst.seconds = seconds;
+  worst.diagnostics = std::move(said);
 }
 
 Eigen::VectorXd flat(const NodalField& field) {
@@ -99,6 +100,15 @@ struct Split {
 
 }  // namespace
 
+TimeSteps timeSteps(double h_s, double end_s) {
+  if (!(h_s > 0.0) || !std::isfinite(h_s)) refuse("the time step must be positive", h_s);
+  if (!(end_s >= 0.0) || !std::isfinite(end_s)) refuse("the end time must be 0 or more", end_s);
+  if (end_s / h_s > 1e9) refuse("at most 1e9 steps: use a larger time step", end_s / h_s);
+  const double count = std::ceil(end_s / h_s - 1e-9);
+  const bool divides = std::abs(count * h_s - end_s) <= 1e-9 * h_s;
+  return {static_cast<int>(count), divides ? h_s : end_s / count};
+}
+
 Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eigen::VectorXd& q0,
                      const Eigen::VectorXd& v0, const DynamicOptions& options, const Progress& progress) {
   checkOptions(options);
@@ -108,11 +118,12 @@ Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eige
                       std::to_string(v0.size()) + " values for " + std::to_string(n) + " degrees of freedom");
   for (const Eigen::Index p : options.probes)
     if (p < 0 || p >= n) throw BadArgument("integrate: probe " + std::to_string(p) + " of " + std::to_string(n));
-  const double h = options.h_s, alpha = options.rayleighAlpha_1_s, beta = options.rayleighBeta_s;
-  const auto steps = static_cast<int>(std::ceil(options.end_s / h - 1e-9));
+  const auto [steps, h] = timeSteps(options.h_s, options.end_s);
+  const double alpha = options.rayleighAlpha_1_s, beta = options.rayleighBeta_s;
   system.prepare(1.0 + h * alpha, h * (h + beta));
 
   Trajectory out;
+  out.h_s = h;
   DynamicState state{0, 0.0, q0, v0, Eigen::VectorXd::Zero(n)};
   Eigen::VectorXd Kq(n), Kv(n), Mv(n), dv = Eigen::VectorXd::Zero(n);
   const double fNorm = f.norm();
@@ -150,9 +161,7 @@ Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eige
     state.t_s = ++state.step * h;
     out.steps = state.step;
     observe(factor);
-    const double qNorm = state.q.norm();
-    if (options.stopWhenSteady > 0.0 && factor == 1.0 && out.unbalance <= options.stopWhenSteady &&
-        h * state.v.norm() <= options.stopWhenSteady * qNorm) {
+    if (factor == 1.0 && isAtRest(out.unbalance, h * state.v.norm(), state.q.norm(), options.stopWhenSteady)) {
       out.steady = true;
       break;
     }
@@ -162,6 +171,22 @@ Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eige
   out.last = std::move(state);
   progress.report(1.0, "time stepping");
   return out;
+}
+
+Solution solutionInMotion(const VoxelOperator& voxels, const NodalField& f_N, const NodalField& u_m,
+                          const NodalField& v_m_s, const NodalField& a_m_s2, double alpha_1_s, double beta_s) {
+  Solution s;
+  s.u_m = u_m;
+  const NodalField spring_N = voxels.springForce(u_m);
+  const NodalField internal_N = voxels.applyFree(u_m);
+  s.energy_J = 0.5 * u_m.cwiseProduct(internal_N - spring_N).sum();
+  const NodalField rest_N = internal_N - spring_N - f_N + voxels.applyMass(a_m_s2 + alpha_1_s * v_m_s) +
+                            beta_s * (voxels.applyFree(v_m_s) - voxels.springForce(v_m_s));
+  s.reaction_N = spring_N;
+  for (int node = 0; node < voxels.mesh().nodeCount(); ++node)
+    for (int c = 0; c < 3; ++c)
+      if (voxels.isFixed(node, c)) s.reaction_N(c, node) += rest_N(c, node);
+  return s;
 }
 
 DynamicSolution solveDynamic(const Problem& problem, const DynamicOptions& dynamic, const SolverOptions& solver,
@@ -183,20 +208,9 @@ DynamicSolution solveDynamic(const Problem& problem, const DynamicOptions& dynam
   DynamicSolution out;
   out.trajectory = integrate(system, flat(free_N), zero, zero, dynamic, progress);
   const DynamicState& last = out.trajectory.last;
-  Solution& s = out.solution;
-  s.u_m = nodal(last.q) + lift_m;
-  const NodalField v = nodal(last.v);
-  const NodalField spring_N = voxels->springForce(s.u_m);
-  const NodalField internal_N = voxels->applyFree(s.u_m);
-  s.energy_J = 0.5 * s.u_m.cwiseProduct(internal_N - spring_N).sum();
-  const NodalField rest_N = internal_N - spring_N - f_N +
-                            voxels->applyMass(nodal(last.a) + dynamic.rayleighAlpha_1_s * v) +
-                            dynamic.rayleighBeta_s * (voxels->applyFree(v) - voxels->springForce(v));
-  s.reaction_N = spring_N;
-  for (int node = 0; node < nodes; ++node)
-    for (int c = 0; c < 3; ++c)
-      if (voxels->isFixed(node, c)) s.reaction_N(c, node) += rest_N(c, node);
-  s.report = out.trajectory.worst;
+  out.solution = solutionInMotion(*voxels, f_N, nodal(last.q) + lift_m, nodal(last.v), nodal(last.a),
+                                  dynamic.rayleighAlpha_1_s, dynamic.rayleighBeta_s);
+  out.solution.report = out.trajectory.worst;
   return out;
 }
 

@@ -82,6 +82,15 @@ class VoxelSystem : public DynamicSystem {
   std::unique_ptr<State> state_;
 };
 
+/// Equal steps from 0 to end_s exactly: as many as steps of h_s reach it, so of the length asked for where that divides
+/// the time, and a little shorter where it does not.
+struct TimeSteps {
+  int count = 0;
+  double h_s = 0.0;
+};
+/// Throws BadInput for h_s ≤ 0, end_s < 0, values that are not finite, more than 1e9 steps.
+TimeSteps timeSteps(double h_s, double end_s);
+
 struct DynamicState {
   int step = 0;
   double t_s = 0.0;
@@ -89,17 +98,22 @@ struct DynamicState {
 };
 
 struct DynamicOptions {
-  double h_s = 1e-3;  ///< time step
+  double h_s = 1e-3;  ///< time step at most; timeSteps has the length taken
   double end_s = 2.0;
   double rayleighAlpha_1_s = 0.0;  ///< C = α M + β K
   double rayleighBeta_s = 0.0;
-  double ramp_s = 0.0;  ///< the load grows linearly over this time; 0 = at once
-  double stopWhenSteady =
-      0.0;  ///< stop where ‖f − K q‖ ≤ this ‖f‖ and ‖h v‖ ≤ this ‖q‖, the load being full; 0 = never
+  double ramp_s = 0.0;                              ///< the load grows linearly over this time; 0 = at once
+  double stopWhenSteady = 0.0;                      ///< stop where isAtRest, the load being full; 0 = never
   int keepEvery = 0;                                ///< keep every n-th state; 0 = none
   std::vector<Eigen::Index> probes;                 ///< entries of q recorded at every step
   std::function<bool(const DynamicState&)> onStep;  ///< after every step; false stops
 };
+
+/// What "at rest" means for every solver: ‖f − K q‖ ≤ tolerance ‖f‖ and ‖h v‖ ≤ tolerance ‖q‖. Neither alone will do:
+/// the velocity vanishes at every turning point, the unbalance whenever the motion passes its equilibrium.
+inline bool isAtRest(double unbalance, double hvNorm, double qNorm, double tolerance) {
+  return tolerance > 0.0 && unbalance <= tolerance && hvNorm <= tolerance * qNorm;
+}
 
 struct StepEnergy {
   double kinetic_J = 0.0, elastic_J = 0.0;
@@ -114,6 +128,7 @@ struct Trajectory {
   std::vector<Eigen::VectorXd> probes;  ///< one per time, empty without probes
   std::vector<DynamicState> kept;
   int steps = 0;
+  double h_s = 0.0;  ///< length of a step as taken
   bool steady = false;
   double unbalance = 0.0;  ///< ‖f − K q‖ / ‖f‖ of the last state (0 where f = 0)
   SolveReport worst;       ///< of the step with the largest residual; its status is the worst of all steps
@@ -129,6 +144,11 @@ struct Trajectory {
 /// told in worst, and one with values that are not finite ends the run there.
 Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eigen::VectorXd& q0,
                      const Eigen::VectorXd& v0, const DynamicOptions& options, const Progress& progress = {});
+
+/// The solution that belongs to a state of motion of a body under the load f_N: reactions with inertia and damping
+/// (C = αM + βK), elastic energy; its report is left empty.
+Solution solutionInMotion(const VoxelOperator& voxels, const NodalField& f_N, const NodalField& u_m,
+                          const NodalField& v_m_s, const NodalField& a_m_s2, double alpha_1_s, double beta_s);
 
 /// From rest. The solution is the last state: reactions include inertia and damping, energy_J is elastic, report is
 /// that of the worst step.

@@ -56,9 +56,12 @@ void MatrixSystem::prepare(double m, double k) {
 
 SolveReport MatrixSystem::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const {
   const VectorMap apply = [this](const Eigen::VectorXd& from, Eigen::VectorXd& to) { symmetricTimes(A_, from, to); };
-  if (factor_) return factor_->solve(apply, b, x, options_.tolerance, options_.tolerance);
-  return conjugateGradients(apply, preconditioner_, b, x, options_.iterations > 0 ? options_.iterations : ownLimit,
-                            options_.tolerance);
+  SolveReport report =
+      factor_ ? factor_->solve(apply, b, x, options_.tolerance, options_.tolerance)
+              : conjugateGradients(apply, preconditioner_, b, x,
+                                   options_.iterations > 0 ? options_.iterations : ownLimit, options_.tolerance);
+  acceptRounding(A_, b, x, report);
+  return report;
 }
 
 void MatrixSystem::setFreeModes(const Eigen::MatrixXd& modes) {

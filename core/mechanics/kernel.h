@@ -63,6 +63,9 @@ class FrameBasis {
     P[7] = s.x() * s.y(), P[8] = s.y() * s.z(), P[9] = s.z() * s.x();
   }
   const std::vector<std::string>& notes() const { return notes_; }
+  /// Mls: share of the nodes that see sites in one sheet or row only, as on a body thinner than its sites are apart:
+  /// what they carry cannot bend there (140 times too stiff on a plate of two cells). Other kernels: 0.
+  double flatShare() const { return flatShare_; }
 
  private:
   using Column = std::vector<std::pair<int, double>>;  ///< {node, φ}, ascending nodes
@@ -80,6 +83,7 @@ class FrameBasis {
   Eigen::SparseMatrix<double> byFrame_;
   Eigen::SparseMatrix<double, Eigen::RowMajor> byNode_;
   std::vector<std::string> notes_;
+  double flatShare_ = 0.0;
 };
 
 }  // namespace glisson::mechanics

@@ -18,6 +18,11 @@ using Eigen::VectorXd;
 /// A pivot or eigenvalue of the moment matrix below this share of its own size is rounding, not information.
 constexpr double smallest = 1e-9;
 
+/// Sites whose spread in one direction is below this share of their spread in another lie in a sheet or a row: no
+/// polynomial of theirs can tell bending from shear.
+constexpr double flatSpread = 0.15;
+constexpr double flatNoted = 0.05;
+
 /// Monomials behind the constant, linear ones first.
 void monomials(const Vector3d& s, int terms, double* p) {
   p[0] = s.x(), p[1] = s.y(), p[2] = s.z();
@@ -57,6 +62,13 @@ VectorXd coefficients(const MatrixXd& S, const VectorXd& b, bool& complete) {
   VectorXd c(9);
   c << A * (b.head(3) - B * quadratic), quadratic;
   return c;
+}
+
+/// Whether weighted sites (monomials p about their mean, linear ones first) lie in a sheet or a row.
+bool liesFlat(const MatrixXd& p, const VectorXd& w) {
+  const Eigen::Matrix3d spread = p.topRows<3>() * w.asDiagonal() * p.topRows<3>().transpose();
+  const Vector3d size = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread, Eigen::EigenvaluesOnly).eigenvalues();
+  return !(size[0] > flatSpread * flatSpread * size[2]);
 }
 
 /// Widens supports until every node lies within those of `least` sites (as the crow flies).
@@ -104,7 +116,7 @@ std::vector<FrameBasis::Column> FrameBasis::mls(const VoxelMesh& mesh, const Pro
 
   // Centred at the weighted mean, the constant is exact whatever becomes of the rest:
   // ψᵢ = wᵢ (1 + c·(pᵢ − p̄)),  S c = −p̄,  S = Σ wᵢ (pᵢ − p̄)(pᵢ − p̄)ᵀ,  Σ wᵢ = 1, p = 0 at the node.
-  std::atomic<int> reduced{0};
+  std::atomic<int> reduced{0}, flat{0};
   parallelChunks(byNode.size(), 64, [&](std::size_t begin, std::size_t end) {
     progress.check();
     MatrixXd p;
@@ -128,6 +140,7 @@ std::vector<FrameBasis::Column> FrameBasis::mls(const VoxelMesh& mesh, const Pro
                   p.col(i).data());
       const VectorXd mean = p * w;
       p.colwise() -= mean;
+      if (liesFlat(p, w)) ++flat;
       const MatrixXd S = p * w.asDiagonal() * p.transpose();
       bool complete = true;
       const VectorXd c = coefficients(S, -mean, complete);
@@ -136,10 +149,18 @@ std::vector<FrameBasis::Column> FrameBasis::mls(const VoxelMesh& mesh, const Pro
         *near[static_cast<std::size_t>(i)].value = w[i] * (1.0 + c.dot(p.col(i)));
     }
   });
+  flatShare_ = static_cast<double>(flat) / mesh.nodeCount();
+  if (flatShare_ > flatNoted)
+    notes_.push_back("the sites around " + std::to_string(std::lround(100 * flatShare_)) +
+                     " % of the voxel nodes lie in one sheet or row, because the body is thinner there than they are "
+                     "apart: moving least squares cannot bend there and come out far too stiff. Use the kernel "
+                     "\"wendland\" or \"voronoi\", finite elements, or so many frames that several lie across the "
+                     "body everywhere");
   if (reduced > 0)
     notes_.push_back(std::to_string(reduced) + " of " + std::to_string(mesh.nodeCount()) +
                      " voxel nodes see too few mesh-free sites, or sites in one plane: the moving least squares fit "
-                     "keeps fewer terms there. Use more frames, or order 1");
+                     "keeps fewer terms there. Use more frames" +
+                     (options_.order == 2 ? ", or order 1" : ""));
   return columns;
 }
 

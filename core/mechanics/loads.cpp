@@ -124,22 +124,33 @@ NodalField bodyForce(const VoxelMesh& mesh, const Eigen::Vector3d& density_N_m3)
   return f;
 }
 
-std::vector<Spring> faceSprings(const VoxelMesh& mesh, const std::vector<Face>& faces, double k_N_m3,
-                                SpringDirection direction) {
+std::vector<Foundation> foundations(const std::vector<Face>& faces, double k_N_m3, SpringDirection direction) {
   if (!(std::isfinite(k_N_m3) && k_N_m3 >= 0)) {
     std::ostringstream what;
     what << "a foundation of " << k_N_m3 << " N/m3 (" << k_N_m3 / N_m3_per_kPa_mm
          << " kPa/mm); the stiffness must be finite and not negative";
     throw BadInput(what.str());
   }
-  std::vector<Eigen::Matrix3d> atNode(static_cast<std::size_t>(mesh.nodeCount()), Eigen::Matrix3d::Zero());
+  std::vector<Foundation> all;
   for (const Face& face : faces) {
     const Eigen::Vector3d n = faceNormal(face.side);
     const Eigen::Matrix3d k =
         direction == SpringDirection::Normal ? Eigen::Matrix3d(n * n.transpose()) : Eigen::Matrix3d::Identity();
-    for (const int node : faceNodes(mesh, face))
-      atNode[static_cast<std::size_t>(node)] += 0.25 * faceArea_m2(mesh, face.side) * k_N_m3 * k;
+    all.push_back({face, k_N_m3 * k});
   }
+  return all;
+}
+
+std::vector<Spring> faceSprings(const VoxelMesh& mesh, const std::vector<Face>& faces, double k_N_m3,
+                                SpringDirection direction) {
+  return faceSprings(mesh, foundations(faces, k_N_m3, direction));
+}
+
+std::vector<Spring> faceSprings(const VoxelMesh& mesh, const std::vector<Foundation>& foundations) {
+  std::vector<Eigen::Matrix3d> atNode(static_cast<std::size_t>(mesh.nodeCount()), Eigen::Matrix3d::Zero());
+  for (const Foundation& f : foundations)
+    for (const int node : faceNodes(mesh, f.face))
+      atNode[static_cast<std::size_t>(node)] += 0.25 * faceArea_m2(mesh, f.face.side) * f.k_N_m3;
   std::vector<Spring> springs;
   for (int node = 0; node < mesh.nodeCount(); ++node)
     if (!atNode[static_cast<std::size_t>(node)].isZero(0))

@@ -39,8 +39,17 @@ NodalField bodyForce(const VoxelMesh& mesh, const Eigen::Vector3d& density_N_m3)
 /// Spring resistance in kPa per mm of displacement is 1e6 times that in N/m³.
 inline constexpr double N_m3_per_kPa_mm = 1e6;
 enum class SpringDirection { Every, Normal };
-/// Winkler foundation on faces, stiffness in N/m³ (force per area and displacement), lumped to nodes by row sums: every
-/// face node takes a quarter of k × area, as k I or k n nᵀ. Throws BadInput where k is negative or not finite.
+/// Winkler foundation on one face: k per area and displacement, symmetric positive semi-definite, N/m³.
+struct Foundation {
+  Face face;
+  Eigen::Matrix3d k_N_m3 = Eigen::Matrix3d::Zero();
+};
+/// Of stiffness k on faces, as k I or k n nᵀ. Throws BadInput where k is negative or not finite.
+std::vector<Foundation> foundations(const std::vector<Face>& faces, double k_N_m3,
+                                    SpringDirection direction = SpringDirection::Every);
+/// Foundations lumped to nodes by row sums: every face node takes a quarter of k × area.
+std::vector<Spring> faceSprings(const VoxelMesh& mesh, const std::vector<Foundation>& foundations);
+/// Those of one stiffness on faces. Throws BadInput where k is negative or not finite.
 std::vector<Spring> faceSprings(const VoxelMesh& mesh, const std::vector<Face>& faces, double k_N_m3,
                                 SpringDirection direction = SpringDirection::Every);
 

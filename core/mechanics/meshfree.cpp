@@ -171,6 +171,7 @@ Solution MeshfreeModel::solveStatic(const NodalField& f_N, const SolverOptions& 
                                 options.tolerance, progress);
     report.why = automatic ? "block-Jacobi CG: more than 10000 degrees of freedom" : "asked for";
   }
+  acceptRounding(K_, b, q, report);
   Solution out = solution(q, f_N);
   out.report = report;
   return out;

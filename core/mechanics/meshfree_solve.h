@@ -25,6 +25,11 @@ void symmetricTimes(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd&
 SolveReport conjugateGradients(const VectorMap& A, const VectorMap& precondition, const Eigen::VectorXd& b,
                                Eigen::VectorXd& x, int iterations, double tolerance, const Progress& progress = {});
 
+/// Evaluating A x in double precision leaves a residual of up to 4 ε ‖|A| |x|‖ however x was found: where a solve ended
+/// above its tolerance and within that floor, it is Converged, its tolerance is the floor, and `why` says so.
+void acceptRounding(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b, const Eigen::VectorXd& x,
+                    SolveReport& report);
+
 /// The inverse diagonal, or the inverses of the diagonal blocks [border[i], border[i+1]), as a preconditioner.
 VectorMap jacobi(const Eigen::SparseMatrix<double>& A);
 VectorMap blockJacobi(const Eigen::SparseMatrix<double>& A, const std::vector<int>& border);

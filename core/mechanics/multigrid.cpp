@@ -47,6 +47,19 @@ struct Multigrid::State {
   }
 };
 
+MultigridOptions MultigridOptions::forPoisson(double poisson) {
+  MultigridOptions o;
+  if (1 - 2 * poisson < 0.015) {
+    o.degree = 12;
+    o.smoothed = 130;
+  }
+  if (1 - 2 * poisson < 0.001) {
+    o.degree = 16;
+    o.smoothed = 200;
+  }
+  return o;
+}
+
 Multigrid::Multigrid(const VoxelOperator& op, const MultigridOptions& options, const MultigridMatrix& matrix)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
@@ -76,6 +89,7 @@ Multigrid::Multigrid(const VoxelOperator& op, const MultigridOptions& options, c
     MultigridLevel next = coarsen(s.levels.back(), op.element(), body.poisson);
     next.finish();
     MultigridLevel& last = s.levels.back();
+    last.bound(options.boundByCells);
     last.exact = {};
     last.geometry.E = {};
     last.geometry.rho = {};
@@ -100,6 +114,13 @@ void Multigrid::cycle(const std::vector<double>& r, std::vector<double>& z) {
   parallelChunks(r.size(), chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) z[i] = top.x[i];
   });
+}
+
+bool Multigrid::boundByCells() {
+  if (state_->options.boundByCells) return false;
+  state_->options.boundByCells = true;
+  for (std::size_t l = 0; l + 1 < state_->levels.size(); ++l) state_->levels[l].bound(true);
+  return true;
 }
 
 int Multigrid::levels() const {

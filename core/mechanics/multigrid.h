@@ -9,9 +9,13 @@
 namespace glisson::mechanics {
 
 struct MultigridOptions {
-  int degree = 5;           ///< of the Chebyshev smoother, before and after each coarse correction
-  double smoothed = 24;     ///< the smoother acts on eigenvalues of D⁻¹K in [λmax / smoothed, λmax]
-  int coarsestDofs = 1500;  ///< factorised at or below this size
+  int degree = 5;             ///< of the Chebyshev smoother, before and after each coarse correction
+  double smoothed = 24;       ///< the smoother acts on eigenvalues of D⁻¹K in [λmax / smoothed, λmax]
+  bool boundByCells = false;  ///< λmax from single cells, which always holds, not from iteration (spectral_bound.h)
+  int coarsestDofs = 1500;    ///< factorised at or below this size
+
+  /// Near incompressible bodies take longer polynomials over a wider range: half the iterations for the same products.
+  static MultigridOptions forPoisson(double poisson);
 };
 
 /// The matrix that a hierarchy approximates: stiffness · K + mass · M, M the body's consistent mass matrix (kg). The
@@ -24,6 +28,11 @@ struct MultigridMatrix {
 /// One V-cycle as a preconditioner, in float. Coarse levels take the mean of the moduli (empty = 0) and rebuild the
 /// element; springs are restricted by row sums; only axes whose cells are shorter than 1.5 × the shortest are halved,
 /// so flat or long cells become cubes first. The coarsest level is factorised in double.
+///   The cycle B is symmetric positive definite, but for rounding: on the coarsest level it is the inverse of such a
+/// matrix; on every other one B = q̄(A) + (1 − M A)ᵀ P B_c Pᵀ (1 − A M), where M is the smoother and q̄ = M + Mᵀ − Mᵀ A M
+/// is positive definite as soon as |1 − λ m(λ)| < 1 for every eigenvalue λ of D⁻¹ A, which the Chebyshev polynomial is
+/// on (0, λmax]; so all that it takes is that λmax is not below the largest eigenvalue (spectral_bound.h). How well a
+/// coarse matrix stands for the fine one plays no role in it.
 class Multigrid {
  public:
   /// Throws SolverFailed where the coarsest level has no factor (a body that is not held, without mass).
@@ -35,6 +44,10 @@ class Multigrid {
   /// z ≈ A⁻¹ r up to a constant factor, row storage; z is 0 at fixed degrees of freedom. Same bits with any number of
   /// threads. Not for several threads at once.
   void cycle(const std::vector<double>& r, std::vector<double>& z);
+
+  /// Takes the bound that always holds on every level; false where it is taken already. For a solve that met pᵀ A p ≤ 0
+  /// or rᵀ B r ≤ 0: the sharper bound fails in one body of ten thousand at worst.
+  bool boundByCells();
 
   int levels() const;
   /// "221 133 → 28 890 → ..." degrees of freedom per level.

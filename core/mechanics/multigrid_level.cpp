@@ -1,11 +1,10 @@
 #include "mechanics/multigrid_level.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
-#include "base/random.h"
+#include "mechanics/spectral_bound.h"
 
 namespace glisson::mechanics {
 namespace {
@@ -124,44 +123,12 @@ void MultigridLevel::finish() {
     dofs += diagonal[i] > 0;
   }
   for (std::vector<float>* v : {&x, &r, &d, &y}) v->assign(3 * n, 0.0F);
-  estimateLambda();
 }
 
-void MultigridLevel::estimateLambda() {
-  // λmax(D⁻¹K) is at most the largest over single cells, whatever the moduli; the power method tightens it. That of a
-  // box's consistent mass is 27/8.
-  const Eigen::VectorXd scale = K0.diagonal().cwiseSqrt().cwiseInverse();
-  const double bound = std::max(exact.rho.empty() ? 3.0 : 3.375,
-                                Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
-                                    scale.asDiagonal() * K0 * scale.asDiagonal(), Eigen::EigenvaluesOnly)
-                                    .eigenvalues()[23]);
-  Random random(17);
-  for (std::size_t i = 0; i < x.size(); ++i)
-    x[i] = inverseDiagonal[i] != 0 ? static_cast<float>(random.uniform(-1, 1)) : 0.0F;
-  double estimate = 0;
-  for (int step = 0; step < 12; ++step) {
-    A.apply(x.data(), y.data());
-    // Rayleigh quotient in the D inner product: (xᵀ K x) / (xᵀ D x).
-    const double xKx = parallelSum(x.size(), chunk, [&](std::size_t begin, std::size_t end) {
-      double s = 0;
-      for (std::size_t i = begin; i < end; ++i) s += static_cast<double>(x[i]) * y[i];
-      return s;
-    });
-    const double xDx = parallelSum(x.size(), chunk, [&](std::size_t begin, std::size_t end) {
-      double s = 0;
-      for (std::size_t i = begin; i < end; ++i)
-        if (inverseDiagonal[i] != 0) s += static_cast<double>(x[i]) * x[i] / inverseDiagonal[i];
-      return s;
-    });
-    if (!(xDx > 0)) break;
-    estimate = std::max(estimate, xKx / xDx);
-    const auto shrink = static_cast<float>(estimate > 0 ? 1 / estimate : 1);
-    forRange(x.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) x[i] = shrink * inverseDiagonal[i] * y[i];
-    });
-  }
-  lambdaMax = estimate > 0 ? std::min(1.15 * estimate, bound) : bound;
-  std::fill(x.begin(), x.end(), 0.0F);
+void MultigridLevel::bound(bool byCells) {
+  lambdaMax = boundOverCells(K0, !A.rho.empty());
+  if (!byCells) lambdaMax = std::min(lambdaMax, boundByIteration(A, inverseDiagonal, x, d, y));
+  for (std::vector<float>* v : {&x, &d, &y}) std::fill(v->begin(), v->end(), 0.0F);
 }
 
 void MultigridLevel::smooth(bool fromZero, int degree, double smoothed, bool keepResidual) {

@@ -27,17 +27,18 @@ struct MultigridLevel {
   LatticeOperator<float> A;
   Halved halved{};                     ///< how the next level is made from this one
   std::vector<float> inverseDiagonal;  ///< 0 at fixed degrees of freedom and slots without a node
-  double lambdaMax = 0;                ///< largest eigenvalue of D⁻¹ A, estimated from above
+  double lambdaMax = 0;                ///< not below the largest eigenvalue of D⁻¹ A (spectral_bound.h)
   int dofs = 0;                        ///< active
   std::vector<float> x, r, d, y;
 
-  /// Diagonal, float copies and the eigenvalue estimate, from geometry and exact.{springs, fixed}.
+  /// Diagonal and float copies, from geometry and exact.{springs, fixed}.
   void finish();
-  /// x = smoother applied to r from 0, or continued from x; r becomes the residual; degree applications of A.
+  /// lambdaMax: the bound over single cells, which always holds, or the sharper one by iteration.
+  void bound(bool byCells);
+  /// x = smoother applied to r from 0, or continued from x; r becomes the residual; degree applications of A. The error
+  /// along an eigenvector of D⁻¹ A is multiplied by a number between −1 and 1, so that a cycle made of smoothers is
+  /// positive definite.
   void smooth(bool fromZero, int degree, double smoothed, bool keepResidual);
-
- private:
-  void estimateLambda();
 };
 
 /// Lattice, moduli and element of a level; springs and fixed degrees of freedom still empty.

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
+
 namespace glisson::mechanics {
 
 /// A solid made of equal box-shaped cells, one Young's modulus each. SI units, the grid's own axes.
@@ -93,6 +95,7 @@ struct SolveReport {
   double residual = 0.0;  ///< true relative residual ‖f − K u‖ / ‖f‖, recomputed at the end
   double tolerance = 0.0;
   double seconds = 0.0;
+  Diagnostics diagnostics;  ///< what the user should know of it: another solver than the first had to take over
   bool converged() const { return status == SolveStatus::Converged; }
 };
 

@@ -25,7 +25,8 @@ constexpr int manyLoadsSize = 6000;    ///< degrees of freedom that are factoris
 constexpr int manyLoads = 8;           ///< loads solved by iteration before that
 constexpr double hardContrast = 1e3;   ///< of moduli, where multigrid by mean moduli begins to slow down
 constexpr double hardPoisson = 0.495;  ///< likewise
-constexpr int multigridLimit = 400;    ///< iterations before Auto falls back
+constexpr int hardSize = 30000;        ///< degrees of freedom up to which a factor is worth its second and its 300 MB
+constexpr int multigridLimit = 1000;   ///< iterations before Auto falls back
 
 }  // namespace
 
@@ -101,15 +102,22 @@ struct StaticSolver::State {
   std::unique_ptr<Factorisation> factor;  ///< likewise
 
   KrylovResult runMultigrid(const std::vector<double>& b, std::vector<double>& x, int limit, const Progress& progress) {
-    if (!multigrid) multigrid = std::make_unique<Multigrid>(op);
+    if (!multigrid) multigrid = std::make_unique<Multigrid>(op, MultigridOptions::forPoisson(op.body().poisson));
     KrylovOptions k;
     k.limit = options.iterations > 0 ? options.iterations : limit;
     k.tolerance = options.tolerance;
     k.flexible = true;
     k.energyToo = true;
-    return conjugateGradients(
-        op.lattice(), b, x, [this](const std::vector<double>& r, std::vector<double>& z) { multigrid->cycle(r, z); }, k,
-        progress);
+    const Preconditioning cycle = [this](const std::vector<double>& r, std::vector<double>& z) {
+      multigrid->cycle(r, z);
+    };
+    KrylovResult result = conjugateGradients(op.lattice(), b, x, cycle, k, progress);
+    if (result.status == SolveStatus::Indefinite && multigrid->boundByCells()) {
+      const int spent = result.iterations;
+      result = conjugateGradients(op.lattice(), b, x, cycle, k, progress);
+      result.iterations += spent;
+    }
+    return result;
   }
 
   /// Direct solve with refinement; the iterations are the corrections made.
@@ -203,7 +211,7 @@ KrylovResult StaticSolver::State::runAuto(const std::vector<double>& b, std::vec
   const bool hard = contrast >= hardContrast || op.body().poisson >= hardPoisson;
   const bool many = dofs <= manyLoadsSize && loads >= manyLoads;
   ++loads;
-  if (small || (hard && dofs <= factorisedLimit) || many) {
+  if (small || (hard && dofs <= hardSize) || many) {
     why << (small  ? "small enough to factorise at once"
             : hard ? "hard for iteration and small enough to factorise"
                    : "small, and so many loads that a factor pays");
@@ -241,6 +249,11 @@ KrylovResult StaticSolver::State::runAuto(const std::vector<double>& b, std::vec
     second = runCg(Preconditioner::BlockJacobi, b, y, progress);
   }
   report.why = why.str();
+  report.diagnostics.add(DiagnosticCode::SolverFellBack,
+                         {{"reason", failedBefore ? std::string("failed on an earlier load") : describe(result.status)},
+                          {"spent", std::int64_t{spent}},
+                          {"solver", report.kind},
+                          {"iterations", std::int64_t{second.iterations}}});
   second.iterations += spent;
   // Where multigrid was not tried there is no other answer to fall back on.
   if (!failedBefore && !(second.residual < result.residual)) return result;

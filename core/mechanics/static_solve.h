@@ -17,7 +17,8 @@ namespace glisson::mechanics {
 ///   Multigrid   geometric multigrid (float) inside conjugate gradients (double).
 ///   Auto        chooses from size, contrast and the number of loads so far (a small body is factorised when the ninth
 ///               comes) and says why in SolveReport::why; where the multigrid does not converge it falls back on
-///               Factorised (when small enough), then on block-Jacobi conjugate gradients.
+///               Factorised (when small enough), then on block-Jacobi conjugate gradients, and says
+///               in SolveReport::diagnostics what that took.
 /// The relative residual is ‖P(f − K u)‖ / ‖P(f − K ū)‖, ū the prescribed displacement extended by 0, P the free
 /// degrees of freedom: without prescribed displacements ‖f − K u‖ / ‖f‖. f = 0 gives exactly u = 0. No absolute
 /// thresholds. Storing u in double already leaves a residual of about ε ‖diag(K) u‖; where that floor lies above the

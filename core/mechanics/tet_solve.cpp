@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 
 #include "base/disjoint_sets.h"
@@ -16,6 +17,7 @@
 #include "mechanics/static_solve.h"
 #include "mechanics/supports.h"
 #include "mechanics/tet_element.h"
+#include "mechanics/tet_faces.h"
 
 namespace glisson::mechanics {
 namespace {
@@ -295,6 +297,18 @@ TetProblem onTetrahedra(const Problem& problem, TetOrder order, TetPattern patte
     p.supports.fixations.push_back(f);
   }
   return p;
+}
+
+void layFoundations(TetProblem& tets, const VoxelMesh& voxels, const std::vector<Foundation>& foundations) {
+  tets.supports.springs.clear();
+  const VoxelFacesOnTets onTets(voxels, tets.mesh);
+  std::map<int, Eigen::Matrix3d> atNode;
+  for (const Foundation& f : foundations)
+    for (const auto& [node, share] : onTets.shares(f.face)) {
+      Eigen::Matrix3d& k = atNode.try_emplace(node, Eigen::Matrix3d::Zero()).first->second;
+      k += share * faceArea_m2(voxels, f.face.side) * f.k_N_m3;
+    }
+  for (const auto& [node, k] : atNode) tets.supports.springs.push_back({node, k});
 }
 
 Solution solveTets(const Problem& problem, const TetProblem& tets, const SolverOptions& options,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "mechanics/loads.h"
 #include "mechanics/tet_mesh.h"
 
 namespace glisson::mechanics {
@@ -25,8 +26,13 @@ enum class TetOrder { Linear, Quadratic };
 
 /// A voxel problem on tetrahedra. Nodes of the voxel mesh are the corners. In T10 a middle node is held along an axis
 /// where all corners of an outer face, or of a tetrahedron, that it belongs to are; forces and springs stay at the
-/// corners.
+/// corners, which is right for T4 only: layFoundations and tractions (VoxelFacesOnTets) put them where T10 has them.
 TetProblem onTetrahedra(const Problem& problem, TetOrder order, TetPattern pattern = TetPattern::Mirrored);
+
+/// Replaces the springs of tets = onTetrahedra(problem) by foundations on the voxels' outer faces, lumped by the
+/// weights of the triangles (VoxelFacesOnTets::shares): on T10 at the middle nodes, where springs at the corners would
+/// be 3 to 4 % too soft. Throws BadArgument where a face is not made of two triangles.
+void layFoundations(TetProblem& tets, const VoxelMesh& voxels, const std::vector<Foundation>& foundations);
 
 /// Solves it and gives the answer on the voxel mesh's nodes (reactions of middle nodes go to the ends of their edge,
 /// half each). tets: onTetrahedra(problem), its loads perhaps replaced. Throws BadInput as StaticSolver does.

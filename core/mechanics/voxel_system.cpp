@@ -88,8 +88,7 @@ void VoxelSystem::State::blockJacobi() {
 
 double VoxelSystem::State::expectedIterations() const {
   // Smooth motions weigh m · (row sum of M) against a diagonal k K + m M; the largest eigenvalue is about 3.
-  double sum = 0;
-  for (int node = 0; node < voxels->mesh().nodeCount(); ++node) sum += voxels->diagonal()(0, node);
+  const double sum = voxels->diagonal().row(0).sum();
   const double mass = voxels->lumpedMass_kg().sum();
   const double kappa = 3 * (k * sum + m * mass * 8.0 / 27.0) / (m * mass);
   return 0.5 * std::sqrt(kappa) * std::log(2 / options.tolerance);
@@ -109,7 +108,8 @@ void VoxelSystem::State::choose() {
     note << "the step's mass leaves about " << std::ceil(iterations) << " iterations to block-Jacobi";
     if (iterations > worthMultigrid && k > 0) {
       note << ", more than multigrid costs";
-      multigrid = std::make_unique<Multigrid>(*voxels, MultigridOptions{}, MultigridMatrix{k, m});
+      multigrid = std::make_unique<Multigrid>(*voxels, MultigridOptions::forPoisson(voxels->body().poisson),
+                                              MultigridMatrix{k, m});
       kind = "multigrid-pcg";
     }
   }
@@ -184,7 +184,8 @@ void VoxelSystem::prepare(double m, double k) {
       s.kind = "factorised";
       return;
     case SolverKind::Multigrid:
-      s.multigrid = std::make_unique<Multigrid>(*s.voxels, MultigridOptions{}, MultigridMatrix{k, m});
+      s.multigrid = std::make_unique<Multigrid>(*s.voxels, MultigridOptions::forPoisson(s.voxels->body().poisson),
+                                                MultigridMatrix{k, m});
       s.kind = "multigrid-pcg";
       return;
     case SolverKind::Cg:
@@ -271,14 +272,26 @@ SolveReport VoxelSystem::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) con
                                                            : SolveStatus::StoppedAtLimit;
   } else if (s.multigrid) {
     const bool mayFallBack = s.options.kind == SolverKind::Auto && s.options.iterations == 0;
-    iterate([&s](const std::vector<double>& from, std::vector<double>& to) { s.multigrid->cycle(from, to); },
-            mayFallBack ? multigridLimit : 1000, true);
+    const Preconditioning cycle = [&s](const std::vector<double>& from, std::vector<double>& to) {
+      s.multigrid->cycle(from, to);
+    };
+    iterate(cycle, mayFallBack ? multigridLimit : 1000, true);
+    if (report.status == SolveStatus::Indefinite && s.multigrid->boundByCells()) {
+      rNorm = residual();
+      iterate(cycle, mayFallBack ? multigridLimit : 1000, true);
+    }
     if (report.status != SolveStatus::Converged && mayFallBack) {
       s.multigrid.reset();
       s.kind = report.kind = "block-jacobi-cg";
       s.why = report.why += ", but multigrid " + describe(report.status) + "; block-Jacobi conjugate gradients";
+      const SolveStatus reason = report.status;
+      const int spent = report.iterations;
       rNorm = residual();
       iterate(s.precondition, ownLimit, false);
+      report.diagnostics.add(DiagnosticCode::SolverFellBack, {{"reason", describe(reason)},
+                                                              {"spent", std::int64_t{spent}},
+                                                              {"solver", s.kind},
+                                                              {"iterations", std::int64_t{report.iterations - spent}}});
     }
   } else {
     iterate(s.precondition, ownLimit, false);

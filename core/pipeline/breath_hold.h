@@ -11,8 +11,8 @@ namespace glisson::pipeline {
 /// Corrects a shift between two breath-holds: lays the magnitude images of the elastography acquisition over the MRI
 /// (elastography/registration.h) and moves the grids of the stiffness map and its confidence with them; values are not
 /// resampled. Undone by moving the grids with X_fixed_moving⁻¹. magnitude: a volume or DICOM path; empty: the magnitude
-/// series of mrePath. Adds a sentence to mre.warnings. Throws BadInput where there is no magnitude image, or the images
-/// cannot be laid over each other.
+/// images of the acquisition that was loaded. Adds a sentence to mre.warnings. Throws BadInput where there is no
+/// magnitude image, or the images cannot be laid over each other.
 elastography::Registration fitToMri(LoadedStiffness& mre, const std::filesystem::path& mrePath,
                                     const std::filesystem::path& magnitude, const image::ScalarVolume& mri,
                                     const Progress& progress = {});

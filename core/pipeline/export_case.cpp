@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "image/resample.h"
 #include "pipeline/detail/export_case.h"
+#include "pipeline/replay.h"
 #include "roi/polygon.h"
 
 namespace glisson::pipeline::detail {
@@ -17,6 +18,9 @@ ExportCase::ExportCase(const ExportRequest& request, const Progress& progress)
       throw BadInput("the folder holds no scene.json: give a scene file, or the folder that a run has written");
   }
   scene_ = readScene(file);
+  if (const auto record = runFolder_ / "run.json"; !runFolder_.empty() && std::filesystem::exists(record))
+    for (const std::string& name : filesOfAnotherRun(record))
+      warn("'" + name + "' in the run's folder is not the file that its run.json was written with");
   std::error_code failed;
   std::filesystem::create_directories(request.output, failed);
   if (failed || !std::filesystem::is_directory(request.output))
@@ -32,8 +36,8 @@ const dicom::Series& ExportCase::series(const std::filesystem::path& path, dicom
   dicom::applyRoles(scan, scene_.geometry.roles);
   if (scan.series.empty())
     throw BadInput(std::string("this format refers to DICOM images, and the scene's ") + what + " is no DICOM series");
-  const bool any = std::any_of(scan.series.begin(), scan.series.end(), [&](const auto& s) { return s.role == role; });
-  kept = !any && scan.series.size() == 1 ? scan.series.front() : dicom::findRole(scan, role);
+  Diagnostics said;
+  kept = seriesFor(scan, role, roi().names, said);
   if (kept->error) throw BadInput("the series cannot be used as a volume: " + *kept->error);
   return *kept;
 }
@@ -50,7 +54,10 @@ const elastography::StiffnessMap& ExportCase::stiffness() {
   if (stiffness_) return *stiffness_;
   if (scene_.geometry.mre.empty()) throw BadInput("this format needs an elastogram, and the scene has none");
   const GeometrySpec& g = scene_.geometry;
-  LoadedStiffness loaded = loadStiffness(g.mre, {g.mreQuantity, g.mreUnit, g.roles}, progress_);
+  MapMeaning meaning{g.mreQuantity, g.mreUnit, g.roles};
+  meaning.confidenceScale = g.mreConfidenceScale;
+  if (g.kind == GeometrySpec::Kind::Patient) meaning.outlined = roi().names;
+  LoadedStiffness loaded = loadStiffness(g.mre, meaning, progress_);
   for (const std::string& w : loaded.warnings) warn(w);
   stiffness_ = request_.quantity ? elastography::toQuantity(loaded.map, *request_.quantity, scene_.setup.poisson)
                                  : std::move(loaded.map);
@@ -63,12 +70,17 @@ const LoadedRoi& ExportCase::roi() {
   if (g.kind == GeometrySpec::Kind::Box)
     throw BadInput("this format needs a region of interest, and the scene is a box");
   roi_ = loadRoi(g.kind == GeometrySpec::Kind::Mask ? g.file : g.roi, g.roiName, g.label, progress_);
-  for (const std::string& w : roi_->warnings) warn(w);
   if (g.kind == GeometrySpec::Kind::Patient) {
-    const AnatomicalImage mri = loadImage(g.mri, progress_, g.roles);
+    const AnatomicalImage mri = loadImage(g.mri, progress_, g.roles, roi_->names);
+    checkOutlines(*roi_, mri.volume.grid);
+    for (const std::string& w : roi_->warnings) warn(w);
     for (const std::string& w : checkRoi(*roi_, &mri, nullptr, g.overrideChecks)) warn(w);
+    for (const std::string& w : mri.diagnostics.texts(Severity::Warning)) warn(w);
+    for (const std::string& w : doubtsAboutOutline(*roi_, &mri, nullptr).texts(Severity::Warning)) warn(w);
     mriGrid_ = mri.volume.grid;
     if (const auto completed = completeOutlines(*roi_, *mriGrid_)) warn(*completed);
+  } else {
+    for (const std::string& w : roi_->warnings) warn(w);
   }
   return *roi_;
 }

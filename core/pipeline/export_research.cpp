@@ -129,7 +129,7 @@ void exportSlicer(ExportCase& c) {
   std::vector<exchange::SlicerItem> items;
   const GeometrySpec& g = c.scene().geometry;
   if (g.kind == GeometrySpec::Kind::Patient) {
-    image::writeVolume(c.file("mri.nrrd"), loadImage(g.mri, {}, g.roles).volume);
+    image::writeVolume(c.file("mri.nrrd"), loadImage(g.mri, {}, g.roles, c.roi().names).volume);
     items.push_back({Kind::Volume, "MRI", "mri.nrrd"});
   }
   if (g.kind != GeometrySpec::Kind::Box) {

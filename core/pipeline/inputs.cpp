@@ -1,5 +1,6 @@
 #include "pipeline/inputs.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "base/error.h"
@@ -14,6 +15,13 @@ namespace {
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
   to.insert(to.end(), from.begin(), from.end());
+}
+
+/// What was told about a part of the input.
+template <typename Loaded>
+void take(Inputs& in, const Loaded& part) {
+  append(in.warnings, part.warnings);
+  in.diagnostics.add(part.diagnostics);
 }
 
 /// Notes the time since the last note under the name of a step.
@@ -34,33 +42,46 @@ class StepClock {
 void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, const Progress& progress) {
   const GeometrySpec& g = scene.geometry;
   StepClock clock(in);
-  progress.report(0.0, "reading the MRI");
-  AnatomicalImage mri = loadImage(g.mri, progress.part(0.0, 0.4), g.roles);
+  // The region first: it says which images it was drawn on.
+  progress.report(0.0, "reading the region of interest");
+  LoadedRoi roi = loadRoi(g.roi, g.roiName, g.label, progress.part(0.0, 0.1));
+  clock.note("read-roi");
+  progress.report(0.1, "reading the MRI");
+  AnatomicalImage mri = loadImage(g.mri, progress.part(0.1, 0.4), g.roles, roi.names);
   if (mri.volume.grid.size.z() < 2)
     throw BadInput("the MRI has a single slice: statistics are possible, a 3-D model is not; give the whole series");
-  append(in.warnings, mri.warnings);
+  take(in, mri);
   clock.note("read-mri");
-  progress.report(0.4, "reading the region of interest");
-  LoadedRoi roi = loadRoi(g.roi, g.roiName, g.label, progress.part(0.4, 0.5));
-  append(in.warnings, roi.warnings);
+  progress.report(0.4, "placing the region of interest");
+  checkOutlines(roi, mri.volume.grid);
+  take(in, roi);
   append(in.warnings, checkRoi(roi, &mri, nullptr, g.overrideChecks));
   const std::optional<std::string> completed = completeOutlines(roi, mri.volume.grid);
   if (completed) in.warnings.push_back(*completed);
   in.liver = roi.contours ? roi::rasterise(*roi.contours, mri.volume.grid) : *roi.mask;
-  clock.note("read-roi");
+  std::optional<LoadedStiffness> mre;
   if (needs.mre) {
     progress.report(0.5, "reading the elastogram");
-    LoadedStiffness mre = loadStiffness(g.mre, {g.mreQuantity, g.mreUnit, g.roles}, progress.part(0.5, 0.9));
-    if (g.rigidRegistration) in.registration = fitToMri(mre, g.mre, {}, mri.volume, progress.part(0.9, 1.0));
-    append(in.warnings, mre.warnings);
-    append(in.warnings, checkTogether(mri, mre, g.overrideChecks));
-    checkRolesFound(g.roles, {mri.rolesNotFound, mre.rolesNotFound});
-    in.roiOnMre = mapRoi(roi, mri.volume.grid, mre.map);
+    MapMeaning meaning{g.mreQuantity, g.mreUnit, g.roles};
+    meaning.outlined = roi.names;
+    meaning.confidenceScale = g.mreConfidenceScale;
+    mre = loadStiffness(g.mre, meaning, progress.part(0.5, 0.9));
+    if (g.rigidRegistration) in.registration = fitToMri(*mre, g.mre, {}, mri.volume, progress.part(0.9, 1.0));
+    take(in, *mre);
+    append(in.warnings, checkTogether(mri, *mre, g.overrideChecks));
+    checkRolesFound(g.roles, {mri.rolesNotFound, mre->rolesNotFound});
+    in.roiOnMre = mapRoi(roi, mri.volume.grid, mre->map);
+    for (const Diagnostic& d : in.roiOnMre->diagnostics)
+      if (!in.diagnostics.contains(d.code)) in.diagnostics.add(d.code, d.arguments);
     for (const std::string& warning : in.roiOnMre->warnings)
-      if (warning != completed) in.warnings.push_back(warning);
-    in.stiffness = std::move(mre.map);
+      if (warning != completed && std::find(in.warnings.begin(), in.warnings.end(), warning) == in.warnings.end())
+        in.warnings.push_back(warning);
     clock.note("read-mre");
   }
+  const Diagnostics doubts = doubtsAboutOutline(roi, &mri, mre ? &*mre : nullptr);
+  in.diagnostics.add(doubts);
+  append(in.warnings, doubts.texts());
+  if (mre) in.stiffness = std::move(mre->map);
   in.contours = std::move(roi.contours);
   if (needs.mriValues) in.mri = std::move(mri.volume);
 }
@@ -74,7 +95,7 @@ Inputs loadInputs(const Scene& scene, const Progress& progress) {
   if (g.kind == GeometrySpec::Kind::Patient) loadPatient(scene, needs, in, progress);
   StepClock clock(in);
   if (g.kind == GeometrySpec::Kind::Mask) {
-    in.liver = readRegion(g.file, g.label, surfaceCell_mm(g), in.warnings);
+    in.liver = readRegion(g.file, g.label, surfaceCell_mm(g), in.warnings, &in.diagnostics);
     clock.note("read-roi");
     if (needs.mriValues && !g.background.empty()) in.mri = loadImage(g.background, progress).volume;
     if (needs.mriValues) clock.note("read-mri");

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "base/progress.h"
 #include "elastography/registration.h"
 #include "elastography/roi_mapping.h"
@@ -23,7 +24,8 @@ struct Inputs {
   std::optional<elastography::StiffnessMap> stiffness;  ///< MRE or map, with its confidence
   std::optional<elastography::MappedRoi> roiOnMre;      ///< region of interest on the grid of the elastogram
   std::optional<elastography::Registration> registration;  ///< of the elastogram, where the scene asks for it
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;                       ///< texts, those of diagnostics among them
+  Diagnostics diagnostics;
   std::vector<std::pair<std::string, double>> seconds;  ///< what reading took, by step of the plan
 };
 

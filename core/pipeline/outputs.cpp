@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 
 #include "anatomy/surface.h"
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "image/extend.h"
 #include "image/io.h"
@@ -64,9 +64,10 @@ render::RetractionScene retractionScene(const Scene& scene, const Inputs& inputs
   p.liverSurface = anatomy::liverSurface(cells);
   p.vesselSurface = vessels.surface;
   p.retractorPoint_lps_mm = r.primary.retractorPoint_mm;
+  if (r.primary.contact) p.retractorTravel_mm = r.primary.contact->travel_mm;
   for (const retraction::LoadSpec& load : scene.setup.loads)
     if (const auto* bar = std::get_if<retraction::Retractor>(&load)) {
-      p.retractorAxis = bar->patchAxis();
+      p.retractorAxis = r.placed ? *r.placed->bar.axis : bar->patchAxis();
       p.retractorDirection = bar->direction;
       p.retractorDiameter_mm = bar->diameter_mm;
       p.retractorLength_mm = bar->length_mm;
@@ -99,16 +100,7 @@ std::filesystem::path Writer::note(const std::string& name) {
 
 void Writer::text(const std::string& name, const std::string& content) {
   const std::filesystem::path file = note(name);
-  const std::filesystem::path beside = file.string() + ".part";
-  {
-    std::ofstream out(beside, std::ios::binary);
-    out << content;
-    out.flush();
-    if (!out) throw BadInput("cannot write '" + name + "'; is the disk full or the folder read-only?");
-  }
-  std::error_code ec;
-  std::filesystem::rename(beside, file, ec);
-  if (ec) throw BadInput("cannot write '" + name + "': " + ec.message());
+  writeAtomically(file, content);
 }
 
 void Writer::displacementFields(const RunResult& r) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/part_file.h"
 #include "base/sha256.h"
 
 namespace glisson::pipeline {
@@ -124,6 +125,7 @@ PictureData parsed(const Json& j, Body body) {
   if (!body.used()) throw BadInput("it holds more than it says");
   const Json& r = j.at("retractor");
   if (r.contains("point_lps_mm")) s.retractorPoint_lps_mm = fromJson<Eigen::Vector3d>(r["point_lps_mm"]);
+  if (r.contains("travel_mm")) s.retractorTravel_mm = r["travel_mm"].get<double>();
   s.retractorAxis = fromJson<Eigen::Vector3d>(r.at("axis"));
   s.retractorDirection = fromJson<Eigen::Vector3d>(r.at("direction"));
   s.retractorDiameter_mm = r.at("diameter_mm").get<double>();
@@ -160,6 +162,7 @@ void writePictureFile(const std::filesystem::path& file, const PictureData& data
                     {"diameter_mm", s.retractorDiameter_mm},
                     {"length_mm", s.retractorLength_mm}};
   if (s.retractorPoint_lps_mm) j["retractor"]["point_lps_mm"] = toJson(*s.retractorPoint_lps_mm);
+  if (s.retractorTravel_mm) j["retractor"]["travel_mm"] = *s.retractorTravel_mm;
   j["clinically_significant_mm"] = s.clinicallySignificant_mm;
   j["caption"] = s.caption;
   j["mark"] = s.mark;
@@ -170,18 +173,12 @@ void writePictureFile(const std::filesystem::path& file, const PictureData& data
   const std::string header = j.dump();
   const std::uint64_t length = header.size();
 
-  const std::filesystem::path beside = file.string() + ".part";
-  {
-    std::ofstream out(beside, std::ios::binary);
-    out.write(magic, sizeof magic);
-    out.write(reinterpret_cast<const char*>(&length), sizeof length);
-    out << header << body.bytes();
-    out.flush();
-    if (!out) throw BadInput("cannot write " + named(file) + "; is the disk full or the folder read-only?");
-  }
-  std::error_code failed;
-  std::filesystem::rename(beside, file, failed);
-  if (failed) throw BadInput("cannot write " + named(file) + ": " + failed.message());
+  PartFile part(file);
+  part.write(magic, sizeof magic);
+  part.write(&length, sizeof length);
+  part.write(header.data(), header.size());
+  part.write(body.bytes().data(), body.bytes().size());
+  part.become();
 }
 
 PictureData readPictureFile(const std::filesystem::path& file) {

@@ -261,6 +261,10 @@ std::vector<PlanStep> plan(const Scene& s) {
       solve_MB / 8);
   add("difference", n.compare, n.compare ? "how far apart the two place the same tissue" : "no comparison is asked for",
       0.01);
+  // On cells so large that the tangent, 0.7 kB for each degree of freedom, stays below 42 MB.
+  add("linear-gap", !n.newton,
+      n.newton ? "the kinematics are not linear" : "one corotational correction says what linear theory misses",
+      (n.compare ? 0.8 : 0.4) * solve_s, std::min(60.0, 0.7e-3 * 3.3 * body.voxels));
   add("strain", n.strain, "every result says whether linear theory can be trusted", 1e-7 * cells);
   add("cell-displacements", n.cellField,
       n.cellField ? "overlays, comparison or the field itself need them" : "only probes and sums are asked for",

@@ -11,6 +11,7 @@
 #include "elastography/statistics.h"
 #include "image/resample.h"
 #include "render/charts.h"
+#include "roi/arrangement.h"
 
 namespace glisson::pipeline {
 namespace {
@@ -65,18 +66,26 @@ ReadersOfCase compareCase(const ReaderRequest& request, const std::string& name,
   for (const auto& reader : request.readers)
     rois.push_back(loadRoi(ofCase(reader, name, many), request.name, request.label, progress));
   std::optional<LoadedStiffness> mre;
-  if (!request.mre.empty()) mre = loadStiffness(ofCase(request.mre, name, many), request.meaning, progress);
+  MapMeaning meaning = request.meaning;
+  meaning.outlined = rois.front().names;
+  meaning.mayBeUneven = true;
+  if (!request.mre.empty()) mre = loadStiffness(ofCase(request.mre, name, many), meaning, progress);
   std::optional<image::Grid> grid, mriGrid;
   std::optional<AnatomicalImage> mri;
-  if (!request.mri.empty()) mri = loadImage(ofCase(request.mri, name, many), progress);
+  if (!request.mri.empty()) mri = loadImage(ofCase(request.mri, name, many), progress, {}, rois.front().names);
   if (mri) mriGrid = mri->volume.grid;
   const auto tell = [&](const std::vector<std::string>& said) {
-    for (const std::string& warning : said) warnings.push_back(name + ": " + warning);
+    for (const std::string& text : said)
+      if (const std::string warning = name + ": " + text;
+          std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+        warnings.push_back(warning);
   };
   tell(checkReaders(rois, request.overrideChecks));
   if (mri && mre) tell(checkTogether(*mri, *mre, request.overrideChecks));
-  for (const LoadedRoi& roi : rois)
+  for (const LoadedRoi& roi : rois) {
     tell(checkRoi(roi, mri ? &*mri : nullptr, mre ? &*mre : nullptr, request.overrideChecks));
+    tell(doubtsAboutOutline(roi, mri ? &*mri : nullptr, mre ? &*mre : nullptr).texts());
+  }
   for (const LoadedRoi& roi : rois)
     if (roi.mask && !grid) grid = roi.mask->grid;
   if (!grid) grid = mriGrid;
@@ -84,7 +93,10 @@ ReadersOfCase compareCase(const ReaderRequest& request, const std::string& name,
   if (!grid)
     throw BadInput("outlines alone have no voxels to compare: give the image they were drawn on, or the elastogram");
   std::vector<image::Mask> masks;
-  for (const LoadedRoi& roi : rois) {
+  for (LoadedRoi& roi : rois) {
+    if (roi.contours) tell(roi::outlineDoubts(*roi.contours, *grid, mriGrid.has_value()).texts(Severity::Warning));
+    if (mriGrid)
+      if (const auto completed = completeOutlines(roi, *mriGrid)) tell({*completed});
     masks.push_back(onGrid(roi, *grid));
     result.volume_mL.push_back(1e-3 * grid->voxelVolume_mm3() *
                                static_cast<double>(std::count_if(masks.back().values.begin(), masks.back().values.end(),

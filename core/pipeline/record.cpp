@@ -47,6 +47,22 @@ Json contactToJson(const retraction::RigidContact& c) {
           {"path", path}};
 }
 
+Json gapToJson(const retraction::LinearGap& gap) {
+  Json j;
+  j["known"] = gap.known;
+  j["stable"] = gap.stability == mechanics::Stability::Unknown ? Json(nullptr)
+                                                               : Json(gap.stability == mechanics::Stability::Stable);
+  if (!gap.known) {
+    j["why"] = gap.why;
+    return j;
+  }
+  j["mean"] = gap.mean_mm;
+  j["max"] = gap.max_mm;
+  if (gap.at_retractor_mm) j["at_retractor"] = *gap.at_retractor_mm;
+  if (gap.landmarks_max_mm) j["landmarks_max"] = *gap.landmarks_max_mm;
+  return j;
+}
+
 Json resultToJson(const retraction::Result& r, const Scene& scene) {
   Json j;
   j["solver"] = solverToJson(r.solver);
@@ -64,7 +80,8 @@ Json resultToJson(const retraction::Result& r, const Scene& scene) {
   j["max_rotation_deg"] = r.max_rotation_deg;
   j["max_displacement_mm"] = r.max_displacement_mm;
   j["linear_valid"] = r.linearTrusted;
-  j["kinematics_valid"] = r.linearTrusted;
+  j["kinematics_valid"] = retraction::kinematicsValid(r);
+  if (r.linearGap) j["linear_gap_mm"] = gapToJson(*r.linearGap);
   j["drawable"] = r.drawable;
   j["validity"] = r.validity;
   if (r.retractorPoint_mm) {

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/private_folder.h"
+#include "base/sha256.h"
 #include "base/version.h"
 #include "pipeline/detail/record.h"
 #include "pipeline/run.h"
@@ -85,8 +86,24 @@ void requireSameInputs(const Scene& scene, const Json& recorded) {
 }  // namespace
 
 bool ReplayResult::identical() const {
-  return numbersIdentical &&
+  return numbersIdentical && changed.empty() &&
          std::all_of(outputs.begin(), outputs.end(), [](const ReplayedFile& f) { return f.identical(); });
+}
+
+std::vector<std::string> filesOfAnotherRun(const std::filesystem::path& recordFile) {
+  const Json record = readJson(recordFile, "run record");
+  std::vector<std::string> names;
+  try {
+    for (const Json& f : record.at("outputs")) {
+      const std::string name = f.at("file").get<std::string>();
+      const std::filesystem::path beside = recordFile.parent_path() / std::filesystem::path(name).filename();
+      if (std::filesystem::is_regular_file(beside) && sha256OfFile(beside) != f.at("sha256").get<std::string>())
+        names.push_back(name);
+    }
+  } catch (const nlohmann::json::exception&) {
+    throw BadInput("'" + recordFile.filename().string() + "' is no complete run record");
+  }
+  return names;
 }
 
 ReplayResult replay(const std::filesystem::path& recordFile, const ReplayOptions& options, const Progress& progress) {
@@ -110,6 +127,9 @@ ReplayResult replay(const std::filesystem::path& recordFile, const ReplayOptions
       result.notes.push_back("the run was made by version " + record.at("version").get<std::string>() + ", commit " +
                              record.at("commit").get<std::string>() + "; this is version " + version() + ", commit " +
                              buildCommit());
+    result.changed = filesOfAnotherRun(recordFile);
+    for (const std::string& name : result.changed)
+      result.notes.push_back(name + " beside the record is not the file that the run has written");
     // Where no folder is asked for, the results go when the replay ends.
     std::optional<PrivateFolder> temporary;
     if (options.output.empty()) temporary.emplace();

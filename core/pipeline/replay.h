@@ -24,9 +24,14 @@ struct ReplayedFile {
 struct ReplayResult {
   bool numbersIdentical = false;  ///< every number and word of the record but times, memory and version
   std::vector<ReplayedFile> outputs;
+  std::vector<std::string> changed;  ///< filesOfAnotherRun
   std::vector<std::string> notes;
   bool identical() const;
 };
+
+/// Outputs that lie beside a run record and are not those it was written with, by name: another run has written into the
+/// folder, or somebody has changed them. Files that are not there are not named. Throws BadInput where it is no record.
+std::vector<std::string> filesOfAnotherRun(const std::filesystem::path& record);
 
 /// Runs the scene of a run record again and compares every output by its digest.
 /// Throws BadInput where the record is not one, the scene is not the recorded one, or an input is missing or changed.

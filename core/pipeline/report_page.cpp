@@ -37,7 +37,12 @@ void results(Page& page, const RunResult& r) {
     if (r.discretisation && r.discretisation->difference && r.discretisation->difference->at_retractor_mm)
       rows.emplace_back("At the retractor, error from the size of the cells",
                         "about " + number(*r.discretisation->difference->at_retractor_mm) + " mm");
-    if (d.travel_mm) rows.emplace_back("Travel of the bar, measured less textbook", number(*d.travel_mm) + " mm");
+    if (d.travel_mm) {
+      rows.emplace_back("Travel of the bar, measured less textbook", number(*d.travel_mm) + " mm");
+      rows.emplace_back("Force on the bar at equal lift (" + number(d.equal_lift->travel_mm, 3) + " mm)",
+                        number(d.equal_lift->force_N, 3) + " N measured, " + number(d.equal_lift->other_force_N, 3) +
+                            " N textbook (on the cells of the path)");
+    }
     if (!d.vessel_mm.empty()) {
       rows.emplace_back("Vessel landmarks, mean", number(d.vesselMean_mm) + " mm");
       rows.emplace_back("Vessel landmarks 5 mm or more apart", number(100 * d.vesselFractionBeyond, 3) + " %");
@@ -45,8 +50,10 @@ void results(Page& page, const RunResult& r) {
   }
   if (r.primary.contact) {
     const retraction::RigidContact& c = *r.primary.contact;
-    rows.emplace_back("Bar", number(c.force_N.norm(), 3) + " N, after " + number(c.travel_mm, 3) + " mm" +
+    rows.emplace_back("Bar", number(c.force_N.norm(), 3) + " N, after " + number(c.travel_mm, 3) + " mm, over " +
+                                 number(c.footprint_mm2, 3) + " mm² seen along the hoist" +
                                  (c.slipped ? "; then it slips" : ""));
+    rows.emplace_back("Largest contact pressure", number(c.pressureMax_kPa, 3) + " kPa");
   }
   const Motion motion = motionOf(r.model, r.primary);
   rows.emplace_back("Displacement, mean", number(motion.mean_mm) + " mm");

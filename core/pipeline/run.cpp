@@ -10,6 +10,7 @@
 #include "anatomy/surface.h"
 #include "anatomy/vessels.h"
 #include "base/error.h"
+#include "base/folder_claim.h"
 #include "elastography/statistics.h"
 #include "exchange/sofa.h"
 #include "image/io.h"
@@ -145,8 +146,10 @@ void requireMemory(const std::vector<PlanStep>& plan) {
 
 std::string whyKinematics(const Scene& scene, const retraction::Result& r) {
   if (scene.setup.kinematics != retraction::Kinematics::Auto) return "the scene asks for them";
-  return r.contact ? "the bar turns and strains the tissue beyond linear theory"
-                   : "there is no rigid bar, and linear is what \"auto\" means without one";
+  if (r.contact) return "contact is followed in large deformation, at no more cost than asking whether linear would do";
+  if (r.kinematics == retraction::Kinematics::Hyperelastic) return "linear theory misses 0.2 mm or more";
+  return r.linearGap && retraction::kinematicsValid(r) ? "linear theory misses less than 0.2 mm"
+                                                       : "the model offers no other";
 }
 
 std::string_view wordOf(bool atlas) {
@@ -159,6 +162,18 @@ void tellOfPlaces(RunResult& r) {
   for (const auto& t : r.placed->tried) best = std::max(best, t.borne);
   r.diagnostics.add(DiagnosticCode::NoPlaceBears,
                     {{"places", static_cast<std::int64_t>(r.placed->tried.size())}, {"percent", 100.0 * best}});
+}
+
+/// What linear theory misses of an answer in large deformation, both with the same bar.
+retraction::LinearGap gapOf(const RunResult& r, const retraction::Result& linear) {
+  const comparison::Difference apart = comparison::compare(r.model, r.primary, linear, r.landmarks_mm);
+  retraction::LinearGap gap;
+  gap.known = true;
+  gap.mean_mm = apart.mean_mm;
+  gap.max_mm = apart.max_mm;
+  gap.at_retractor_mm = apart.at_retractor_mm;
+  if (!apart.vessel_mm.empty()) gap.landmarks_max_mm = apart.vesselMax_mm;
+  return gap;
 }
 
 void tellOfSlips(RunResult& r) {
@@ -232,9 +247,21 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
       if (auto* bar = std::get_if<retraction::Retractor>(&load)) *bar = r.placed->bar;
     if (!r.placed->bears) tellOfPlaces(r);
   });
+  anatomy::VesselModel vessels;
+  steps.run("vessels", [&](const Progress& p) { vessels = anatomy::findVessels(*inputs.mri, *inputs.liver, p); });
+  r.landmarks_mm = vessels.centreline_lps_mm;
   steps.run(needs.timeSteps ? "time-steps" : "solve", [&](const Progress& p) {
     r.primary = retraction::simulate(r.model, setup, scene.outputs.probes_mm, p);
   });
+  if (setup.kinematics == retraction::Kinematics::Auto && !needs.timeSteps && !r.primary.contact) {
+    retraction::judgeByGap(r.model, setup, r.landmarks_mm, r.primary);
+    setup.kinematics = retraction::kinematicsValid(r.primary) ? retraction::Kinematics::Linear
+                                                              : retraction::Kinematics::Hyperelastic;
+    if (setup.kinematics != retraction::Kinematics::Linear && setup.model.kind == retraction::ModelKind::FemHex)
+      r.primary = retraction::simulate(r.model, setup, scene.outputs.probes_mm, progress);
+    else
+      setup.kinematics = retraction::Kinematics::Linear;
+  }
   r.kinematicsWhy = whyKinematics(scene, r.primary);
   r.warnings.insert(r.warnings.end(), r.primary.notes.begin(), r.primary.notes.end());
   if (scene.setup.model.kind == retraction::ModelKind::Meshfree)
@@ -253,8 +280,13 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     });
   }
 
+  if (r.atlas)
+    for (const std::string& w : r.atlas->solver.diagnostics.texts(Severity::Warning))
+      r.warnings.push_back("atlas: " + w);
+
   if (!options.discretisation)
-    steps.leaveOut("discretisation-error", "a study that measures errors itself does without the estimate");
+    for (const char* step : {"discretisation-error", "linear-gap"})
+      steps.leaveOut(step, "a study that measures errors itself does without the estimate");
   if (r.primary.solver.converged())
     steps.run("discretisation-error", [&](const Progress& p) {
       std::optional<retraction::SecondAnswer> second;
@@ -277,17 +309,22 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     if (scene.compare) {
       linear.atlas = detail::sameStiffness(r.model, atlasModel)
                          ? linear.primary
-                                                  : retraction::simulate(atlasModel, inLinearTheory, scene.outputs.probes_mm, p.part(0.5, 1.0));
+                         : retraction::simulate(atlasModel, inLinearTheory, scene.outputs.probes_mm, p.part(0.5, 1.0));
       linear.difference = comparison::compare(r.model, linear.primary, *linear.atlas, {});
     }
+    if (r.primary.contact && linear.primary.solver.converged()) r.primary.linearGap = gapOf(r, linear.primary);
     if (!linear.primary.solver.converged() || (linear.atlas && !linear.atlas->solver.converged())) return;
     r.linear = std::move(linear);
   });
 
-  anatomy::VesselModel vessels;
-  steps.run("vessels", [&](const Progress& p) { vessels = anatomy::findVessels(*inputs.mri, *inputs.liver, p); });
-  r.landmarks_mm = vessels.centreline_lps_mm;
   tellOfSlips(r);
+  steps.run("linear-gap", [&](const Progress& p) {
+    retraction::judgeByGap(r.model, setup, r.landmarks_mm, r.primary, p.part(0.0, r.atlas ? 0.5 : 1.0));
+    if (r.atlas && detail::sameStiffness(r.model, atlasModel))
+      r.atlas = r.primary;
+    else if (r.atlas)
+      retraction::judgeByGap(atlasModel, setup, r.landmarks_mm, *r.atlas, p.part(0.5, 1.0));
+  });
   const bool comparable = r.atlas && r.primary.solver.converged() && r.atlas->solver.converged();
   if (r.atlas && !comparable) {
     withhold(r);
@@ -303,6 +340,9 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   }
   if (!options.output.empty()) {
     detail::Writer writer(options.output, r.files);
+    const FolderClaim claim(options.output);
+    // The record comes last: without it, nobody takes what a killed run has left for a result, nor for a former one's.
+    for (const char* name : {"run.json", "report.html", "report.pdf"}) std::filesystem::remove(options.output / name);
     steps.run("write-displacement-field", [&](const Progress&) { writer.displacementFields(r); });
     if (scene.outputs.vessels && needs.vessels) writer.vessels(scene, r, vessels);
     if (r.stiffness) writer.stiffness(*r.stiffness);

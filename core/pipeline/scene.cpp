@@ -71,6 +71,10 @@ GeometrySpec readGeometry(JsonObject o, const std::filesystem::path& folder) {
       g.mreQuantity = o.word("mre_quantity", {"shear", "youngs"}) == "youngs" ? StiffnessQuantity::Youngs
                                                                               : StiffnessQuantity::Shear;
     if (o.has("mre_unit")) g.mreUnit = o.text("mre_unit");
+    if (o.has("mre_confidence_scale")) {
+      g.mreConfidenceScale = o.number("mre_confidence_scale");
+      if (!(*g.mreConfidenceScale > 0.0)) o.fail("mre_confidence_scale", "must be a positive number");
+    }
     g.label = o.integer("label", 0);
   }
   o.finish();
@@ -227,13 +231,12 @@ Scene parseScene(const std::string& text, const std::filesystem::path& folder, c
     o.fail("model",
            "asks for Delaunay tetrahedra, which follow smooth organs and would round the edges of a box: use "
            "\"mesh\": \"voxels\"");
-  const bool rigidBar = std::any_of(s.setup.loads.begin(), s.setup.loads.end(), [](const retraction::LoadSpec& l) {
-    const auto* bar = std::get_if<retraction::Retractor>(&l);
-    return bar != nullptr && bar->contact == retraction::ContactKind::Rigid;
+  const bool retractor = std::any_of(s.setup.loads.begin(), s.setup.loads.end(), [](const retraction::LoadSpec& l) {
+    return std::holds_alternative<retraction::Retractor>(l);
   });
   s.setup.kinematics = kinematicsOf(
-      o.word("kinematics", {"auto", "linear", "corotational", "hyperelastic"}, rigidBar ? "auto" : "linear"));
-  s.setup.capsule = readCapsule(o, rigidBar && s.geometry.kind == GeometrySpec::Kind::Patient);
+      o.word("kinematics", {"auto", "linear", "corotational", "hyperelastic"}, retractor ? "auto" : "linear"));
+  s.setup.capsule = readCapsule(o, retractor && s.geometry.kind == GeometrySpec::Kind::Patient);
   if (o.has("analysis")) s.setup.analysis = detail::readAnalysis(o.object("analysis"));
   if (o.has("solver")) {
     s.setup.solver = detail::readSolver(o.object("solver"));

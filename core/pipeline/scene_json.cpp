@@ -2,8 +2,6 @@
 
 #include "pipeline/scene.h"
 
-#include <algorithm>
-
 namespace glisson::pipeline {
 namespace {
 
@@ -45,6 +43,7 @@ Json toJson(const GeometrySpec& g, const std::filesystem::path& folder) {
       if (g.overrideChecks) j["override"] = true;
       if (g.mreQuantity) j["mre_quantity"] = *g.mreQuantity == StiffnessQuantity::Youngs ? "youngs" : "shear";
       if (g.mreUnit) j["mre_unit"] = *g.mreUnit;
+      if (g.mreConfidenceScale) j["mre_confidence_scale"] = *g.mreConfidenceScale;
       if (g.label != 0) j["label"] = g.label;
       break;
   }
@@ -103,6 +102,7 @@ Json toJson(const retraction::SupportSpec& s, const std::filesystem::path& folde
     j["kind"] = "spring";
     j["stiffness_kPa_per_mm"] = s.stiffness_kPa_per_mm;
     j["direction"] = s.normalOnly ? "normal" : "isotropic";
+    if (s.unilateral) j["unilateral"] = true;
     return j;
   }
   j["kind"] = "fixed";
@@ -123,7 +123,9 @@ struct LoadToJson {
     return {{"kind", "traction"}, {"region", std::visit(RegionToJson{folder}, l.region)}, {"kPa", toJson(l.kPa)}};
   }
   Json operator()(const retraction::Pressure& l) const {
-    return {{"kind", "pressure"}, {"region", std::visit(RegionToJson{folder}, l.region)}, {"kPa", l.kPa}};
+    Json j = {{"kind", "pressure"}, {"region", std::visit(RegionToJson{folder}, l.region)}, {"kPa", l.kPa}};
+    if (l.follows) j["follows"] = true;
+    return j;
   }
   Json operator()(const retraction::Retractor& l) const {
     Json j = {
@@ -133,7 +135,7 @@ struct LoadToJson {
       j["drive"] = {{"travel_mm", *l.travel_mm}};
     else
       j["force"] = l.force_N ? Json(*l.force_N) : Json("liver-weight");
-    if (l.contact == retraction::ContactKind::Rigid) j["contact"] = "rigid";
+    if (l.contact) j["contact"] = *l.contact == retraction::ContactKind::Rigid ? "rigid" : "patch";
     if (l.shape == retraction::BarShape::Hook) j["shape"] = "hook";
     j["direction"] = toJson(l.direction);
     if (l.axis) j["axis"] = toJson(*l.axis);
@@ -193,15 +195,6 @@ Json solverToJson(const retraction::Setup& s) {
 
 }  // namespace
 
-namespace {
-bool rigid(const retraction::Setup& s) {
-  return std::any_of(s.loads.begin(), s.loads.end(), [](const retraction::LoadSpec& load) {
-    const auto* bar = std::get_if<retraction::Retractor>(&load);
-    return bar != nullptr && bar->contact == retraction::ContactKind::Rigid;
-  });
-}
-}  // namespace
-
 std::string toJson(const Scene& scene) {
   const retraction::Setup& s = scene.setup;
   Json j;
@@ -214,8 +207,7 @@ std::string toJson(const Scene& scene) {
   for (const auto& load : s.loads) j["loads"].push_back(std::visit(LoadToJson{scene.folder}, load));
   j["model"] = toJson(s.model);
   j["kinematics"] = nameOf(s.kinematics);
-  if (s.capsule) j["capsule"] = {{"tension_N_per_mm", s.capsule->tension_N_per_mm}};
-  if (!s.capsule && rigid(s)) j["capsule"] = false;
+  j["capsule"] = s.capsule ? Json{{"tension_N_per_mm", s.capsule->tension_N_per_mm}} : Json(false);
   j["analysis"] = toJson(s.analysis);
   j["solver"] = solverToJson(s);
   if (scene.compare)

@@ -1,15 +1,23 @@
 #include "pipeline/sources.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <set>
 
 #include "base/error.h"
+#include "base/sha256.h"
 #include "base/text.h"
+#include "dicom/file_layout.h"
+#include "dicom/roles.h"
 #include "dicom/rtstruct.h"
 #include "dicom/seg.h"
 #include "elastography/roi_from_structures.h"
 #include "image/io.h"
+#include "image/morphology.h"
 #include "pipeline/file_names.h"
 #include "pipeline/region_file.h"
+#include "roi/arrangement.h"
 #include "roi/contour_io.h"
 #include "roi/interpolate.h"
 #include "roi/plane.h"
@@ -33,11 +41,11 @@ std::vector<std::string> warningsOf(const dicom::ScanResult& scan, const dicom::
   return warnings;
 }
 
-/// The series of that role; where no series has it and there is only one, that one.
-const dicom::Series& seriesFor(const dicom::ScanResult& scan, dicom::SeriesRole role) {
-  const bool any = std::any_of(scan.series.begin(), scan.series.end(), [&](const auto& s) { return s.role == role; });
-  if (!any && scan.series.size() == 1) return scan.series.front();
-  return dicom::findRole(scan, role);
+/// Adds diagnostics and their texts.
+template <typename Loaded>
+void tell(Loaded& to, const Diagnostics& said) {
+  to.diagnostics.add(said);
+  append(to.warnings, said.texts());
 }
 
 /// What speaks against taking this series as the stiffness, where it was not chosen by hand.
@@ -59,6 +67,49 @@ std::vector<std::string> doubtsAbout(const dicom::ScanResult& scan, const dicom:
           " slices was taken: give the folder of another, or its role with --role"};
 }
 
+/// Every series as dicom::asStack.
+dicom::ScanResult asStacks(dicom::ScanResult scan) {
+  for (dicom::Series& s : scan.series) s = dicom::asStack(s);
+  return scan;
+}
+
+/// Whether a series whose slices lie unevenly has them where the map's lie.
+bool usableBeside(const dicom::Series& series, const elastography::StiffnessMap& map) {
+  const image::Grid& grid = map.values_kPa.grid;
+  const double apart_mm = (series.grid.origin_lps_mm - grid.origin_lps_mm).dot(grid.direction.col(2));
+  return std::abs(apart_mm) < 0.1 && map.unevenSlices_mm.size() == series.unevenSlices_mm.size() &&
+         std::equal(map.unevenSlices_mm.begin(), map.unevenSlices_mm.end(), series.unevenSlices_mm.begin(),
+                    [](double a, double b) { return std::abs(a - b) < 0.1; });
+}
+
+std::vector<std::pair<std::string, DiagnosticValue>> unevenness(const dicom::Series& series) {
+  double smallest = 1e300, largest = 0.0;
+  for (std::size_t k = 1; k < series.unevenSlices_mm.size(); ++k) {
+    const double gap = series.unevenSlices_mm[k] - series.unevenSlices_mm[k - 1];
+    smallest = std::min(smallest, gap);
+    largest = std::max(largest, gap);
+  }
+  return {{"slices", static_cast<std::int64_t>(series.unevenSlices_mm.size())},
+          {"smallest_mm", smallest},
+          {"largest_mm", largest}};
+}
+
+/// Attaches the confidence series that goes with the map; of a map whose slices lie unevenly only one with the same
+/// slices.
+void takeConfidence(const dicom::Series& series, const MapMeaning& meaning, LoadedStiffness& out, Diagnostics& said,
+                    const Progress& progress) {
+  if (out.map.unevenSlices_mm.empty()) {
+    readConfidence(series, meaning.confidenceScale, out.map, said, progress);
+  } else if (usableBeside(series, out.map)) {
+    dicom::Series stack = dicom::asStack(series);
+    stack.grid.spacing_mm.z() = out.map.values_kPa.grid.spacing_mm.z();
+    readConfidence(stack, meaning.confidenceScale, out.map, said, progress);
+  } else {
+    said.add(DiagnosticCode::ConfidenceOnOtherSlices, {{"series", static_cast<std::int64_t>(series.number)}});
+    out.acquisition.confidence = -1;
+  }
+}
+
 /// The segment that is asked for: by label number, by name, else the one called liver, else the only one.
 int segmentNumber(const dicom::SegmentationSet& set, const std::string& name, int label) {
   if (label != 0) return label;
@@ -76,28 +127,74 @@ int segmentNumber(const dicom::SegmentationSet& set, const std::string& name, in
                  " segments that fit; it holds " + there + ": choose one by its number (--label) or name (--name)");
 }
 
+/// Whether a file could hold a region of interest; images of a folder are passed over without being parsed.
+bool mayBeRoi(const std::filesystem::path& file) {
+  try {
+    dicom::ByteSource source(file);
+    const std::string sop = dicom::readLayout(source).sopClassUid;
+    constexpr const char* structureSet = "1.2.840.10008.5.1.4.1.1.481.3";
+    constexpr const char* segmentations = "1.2.840.10008.5.1.4.1.1.66";
+    return sop.empty() || sop == structureSet || sop.starts_with(segmentations);
+  } catch (const BadInput&) {
+    return true;  // no DICOM file, or one that only another reader understands
+  }
+}
+
+/// The only region of interest below a folder; files of the same bytes are one.
+LoadedRoi onlyRoiIn(const std::filesystem::path& folder, const std::string& name, int label, const Progress& progress) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::string last = "the folder is empty", names;
+  std::vector<LoadedRoi> found;
+  std::set<std::string> seen;
+  for (const auto& file : files) {
+    if (!mayBeRoi(file)) continue;
+    try {
+      LoadedRoi roi = loadRoi(file, name, label, progress);
+      if (!seen.insert(sha256OfFile(file)).second) continue;
+      found.push_back(std::move(roi));
+      names += (names.empty() ? "'" : ", '") + file.filename().string() + "'";
+    } catch (const BadInput& e) {
+      last = e.what();
+    }
+  }
+  if (found.size() > 1)
+    throw BadInput("'" + folder.filename().string() + "' holds " + std::to_string(found.size()) +
+                   " regions of interest: " + names + "; give the file that is meant");
+  if (found.empty()) throw BadInput("no region of interest was found in '" + folder.filename().string() + "': " + last);
+  return std::move(found.front());
+}
+
 }  // namespace
 
 AnatomicalImage loadImage(const std::filesystem::path& path, const Progress& progress,
-                          const dicom::RoleOverrides& roles) {
+                          const dicom::RoleOverrides& roles, const OutlineNames& outlined) {
   AnatomicalImage out;
   if (std::filesystem::is_regular_file(path) && image::isVolumeFile(path)) {
-    out.volume = image::readVolume(path);
+    out.volume = image::readVolume(path, &out.diagnostics);
+    append(out.warnings, out.diagnostics.texts(Severity::Warning));
     for (const auto& [which, role] : roles) out.rolesNotFound.push_back(which);
     return out;
   }
-  dicom::ScanResult scan = dicom::scan(path, progress.part(0.0, 0.4));
-  out.rolesNotFound = dicom::applyRoles(scan, roles);
-  if (scan.series.empty())
+  const auto scan = std::make_shared<dicom::ScanResult>(dicom::scan(path, progress.part(0.0, 0.4)));
+  out.rolesNotFound = dicom::applyRoles(*scan, roles);
+  out.scan = scan;
+  if (scan->series.empty())
     throw BadInput("no image series was found in '" + path.filename().string() + "'" +
-                   (scan.skipped.empty() ? "" : ": " + scan.skipped.front().reason));
-  const dicom::Series& series = seriesFor(scan, dicom::SeriesRole::Anatomical);
+                   (scan->skipped.empty() ? "" : ": " + scan->skipped.front().reason));
+  Diagnostics said;
+  const dicom::Series& series = seriesFor(*scan, dicom::SeriesRole::Anatomical, outlined, said);
+  out.series = static_cast<int>(&series - scan->series.data());
   out.volume = dicom::readSeries(series, progress.part(0.4, 1.0));
   out.frameOfReferenceUid = series.frameOfReferenceUid;
   out.patientKey = series.patientKey;
   out.studyDate = series.studyDate;
   out.studyUid = series.studyUid;
-  out.warnings = warningsOf(scan, series, false);
+  out.warnings = warningsOf(*scan, series, false);
+  out.diagnostics.add(series.diagnostics);
+  tell(out, said);
   return out;
 }
 
@@ -108,51 +205,48 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
       throw BadInput("'" + path.filename().string() +
                      "' is a bare map: say what it holds, quantity shear or youngs (--quantity) and unit Pa, kPa or "
                      "<factor>kPa (--unit)");
-    out.map = elastography::makeStiffnessMap(image::readVolume(path), *meaning.quantity, *meaning.unit);
+    out.map = elastography::makeStiffnessMap(image::readVolume(path, &out.diagnostics), *meaning.quantity, *meaning.unit);
+    append(out.warnings, out.diagnostics.texts(Severity::Warning));
     for (const auto& [which, role] : meaning.roles) out.rolesNotFound.push_back(which);
     return out;
   }
-  dicom::ScanResult scan = dicom::scan(path, progress.part(0.0, 0.4));
-  out.rolesNotFound = dicom::applyRoles(scan, meaning.roles);
-  if (scan.series.empty())
+  const auto scan = std::make_shared<dicom::ScanResult>(dicom::scan(path, progress.part(0.0, 0.4)));
+  out.rolesNotFound = dicom::applyRoles(*scan, meaning.roles);
+  out.scan = scan;
+  if (scan->series.empty())
     throw BadInput("no image series was found in '" + path.filename().string() + "'" +
-                   (scan.skipped.empty() ? "" : ": " + scan.skipped.front().reason));
-  const dicom::Series& series = seriesFor(scan, dicom::SeriesRole::Stiffness);
-  if (series.colour)
-    throw BadInput("the series '" + series.description +
-                   "' is in colour: a coloured elastogram is not a stiffness map; "
-                   "choose the grey-scale stiffness series");
-  const std::optional<std::string> unit = meaning.unit ? meaning.unit : series.unit;
-  if (!unit)
-    throw BadInput("the series '" + series.description +
-                   "' does not say in which unit its stiffness is; give it with --unit (Pa, kPa or <factor>kPa), and "
-                   "--quantity (shear or youngs) where it is not the shear modulus");
-  // MR elastography reports the shear modulus unless told otherwise.
-  out.map = elastography::makeStiffnessMap(dicom::readSeries(series, progress.part(0.4, 0.8)),
-                                           meaning.quantity.value_or(StiffnessQuantity::Shear), *unit);
-  if (std::none_of(meaning.roles.begin(), meaning.roles.end(),
-                   [](const auto& given) { return given.second == dicom::SeriesRole::Stiffness; }))
-    append(out.warnings, doubtsAbout(scan, series));
+                   (scan->skipped.empty() ? "" : ": " + scan->skipped.front().reason));
+  Diagnostics said;
+  const dicom::Series& series = seriesFor(*scan, dicom::SeriesRole::Stiffness, meaning.outlined, said, meaning.mayBeUneven);
+  const dicom::Series stack = meaning.mayBeUneven ? dicom::asStack(series) : series;
+  const bool outlined = said.contains(DiagnosticCode::SeriesByOutline);
+  out.map = readStiffness(stack, meaning, said, progress.part(0.4, 0.8));
+  if (!dicom::setByHand(series) && !outlined) append(out.warnings, doubtsAbout(*scan, series));
   if (meaning.unit && series.unit && *meaning.unit != *series.unit)
     out.warnings.push_back("the series says that its stiffness is in " + *series.unit + "; it was taken as " +
                            *meaning.unit + ", as asked for");
-  if (meaning.quantity == StiffnessQuantity::Youngs)
+  if (meaning.quantity == StiffnessQuantity::Youngs && !series.quantity)
     out.warnings.push_back(
         "the series was taken as Young's modulus, as asked for; MR elastography reports the shear modulus unless it "
         "says "
         "otherwise (a third of it)");
-  out.map.frameOfReferenceUid = series.frameOfReferenceUid;
+  if (!series.unevenSlices_mm.empty()) {
+    out.map.unevenSlices_mm = series.unevenSlices_mm;
+    said.add(DiagnosticCode::SlicesUneven, unevenness(series));
+  }
   out.patientKey = series.patientKey;
   out.studyDate = series.studyDate;
   out.studyUid = series.studyUid;
-  append(out.warnings, warningsOf(scan, series, true));
-  for (const dicom::Series& s : scan.series)
-    if (s.role == dicom::SeriesRole::Confidence && !s.error && s.studyUid == series.studyUid) {
-      elastography::attachConfidence(out.map, dicom::readSeries(s, progress.part(0.8, 1.0)));
-      break;
-    }
-  if (!out.map.confidence)
-    out.warnings.push_back("there is no confidence map: every voxel of the region of interest counts");
+  append(out.warnings, warningsOf(*scan, series, true));
+  out.diagnostics.add(series.diagnostics);
+  const bool uneven = !out.map.unevenSlices_mm.empty();
+  out.acquisition =
+      dicom::partnersOf(uneven ? asStacks(*scan) : *scan, static_cast<int>(&series - scan->series.data()));
+  said.add(out.acquisition.diagnostics);
+  if (const int c = out.acquisition.confidence; c >= 0)
+    takeConfidence(scan->series[static_cast<std::size_t>(c)], meaning, out, said, progress.part(0.8, 1.0));
+  if (!out.map.confidence) said.add(DiagnosticCode::NoConfidenceMap);
+  tell(out, said);
   return out;
 }
 
@@ -166,45 +260,72 @@ void checkRolesFound(const dicom::RoleOverrides& roles, const std::vector<std::v
 }
 
 LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, int label, const Progress& progress) {
+  if (std::filesystem::is_directory(path)) return onlyRoiIn(path, name, label, progress);
   LoadedRoi out;
-  if (std::filesystem::is_directory(path)) {
-    // A folder with one structure set or one contour file in it.
-    std::vector<std::filesystem::path> found;
-    for (const auto& entry : std::filesystem::directory_iterator(path))
-      if (entry.is_regular_file()) found.push_back(entry.path());
-    std::sort(found.begin(), found.end());
-    std::string last = "the folder is empty";
-    for (const auto& file : found) {
-      try {
-        return loadRoi(file, name, label, progress);
-      } catch (const BadInput& e) {
-        last = e.what();
-      }
-    }
-    throw BadInput("no region of interest was found in '" + path.filename().string() + "': " + last);
-  }
   if (extensionOf(path) == ".json") {
     out.contours = roi::readContours(path);
   } else if (isRegionFile(path)) {
-    out.mask = readRegion(path, label, std::nullopt, out.warnings);
+    out.mask = readRegion(path, label, std::nullopt, out.warnings, &out.diagnostics);
   } else if (dicom::isSegmentation(path)) {
     const dicom::SegmentationSet set = dicom::readSegmentation(path);
     append(out.warnings, set.warnings);
-    out.mask = dicom::maskOf(set, segmentNumber(set, name, label));
+    const int segment = segmentNumber(set, name, label);
+    out.mask = dicom::maskOf(set, segment);
     out.frameOfReferenceUid = set.frameOfReferenceUid;
     out.origin = set.origin;
     out.referencedSeriesUid = set.referencedSeriesUid;
+    out.names.seriesUid = set.referencedSeriesUid;
+    for (const dicom::SegmentFrame& f : set.frames)
+      if (f.segment == segment) out.names.planes.push_back({f.position_lps_mm, f.sourceSopInstanceUid});
+    out.ofDicom = true;
   } else {
     dicom::StructureSet set = dicom::readRtStruct(path);
     append(out.warnings, set.warnings);
-    out.contours = elastography::roiFromStructures(set, name);
-    if (out.contours->frameOfReferenceUid.empty()) out.contours->frameOfReferenceUid = set.frameOfReferenceUid;
+    Diagnostics said;
+    out.contours = elastography::roiFromStructures(set, name, label, &said);
+    tell(out, said);
     out.origin = set.origin;
+    out.ofDicom = true;
   }
-  if (out.contours) out.frameOfReferenceUid = out.contours->frameOfReferenceUid;
-  if (label != 0 && !out.mask)
+  if (out.contours) {
+    out.frameOfReferenceUid = out.contours->frameOfReferenceUid;
+    out.names.seriesUid = out.contours->seriesUid;
+    for (const roi::Polygon& p : out.contours->polygons)
+      if (!p.sopInstanceUid.empty() && p.state == roi::PolygonState::Accepted)
+        out.names.planes.push_back({p.points_lps_mm.rowwise().mean(), p.sopInstanceUid});
+  }
+  if (label != 0 && !out.mask && !out.ofDicom)
     out.warnings.push_back("a label picks a value of a mask; these are contours: it was not used");
   return out;
+}
+
+Diagnostics doubtsAboutOutline(const LoadedRoi& roi, const AnatomicalImage* mri, const LoadedStiffness* mre) {
+  Diagnostics said;
+  std::vector<const dicom::ScanResult*> scans;
+  if (mri != nullptr && mri->scan) scans.push_back(mri->scan.get());
+  if (mre != nullptr && mre->scan) scans.push_back(mre->scan.get());
+  said.add(planesOffTheirImages(roi.names, scans, roi.mask ? "frames of the segmentation" : "contours"));
+  if (!roi.names.empty() && mri != nullptr && mri->series >= 0 && outlinedSeries(*mri->scan, roi.names) < 0) {
+    const std::int64_t taken = mri->scan->series[static_cast<std::size_t>(mri->series)].number;
+    const int there = mre != nullptr && mre->scan ? outlinedSeries(*mre->scan, roi.names) : -1;
+    if (there >= 0)
+      said.add(DiagnosticCode::OutlinedSeriesNotTaken,
+               {{"named", static_cast<std::int64_t>(mre->scan->series[static_cast<std::size_t>(there)].number)},
+                {"taken", taken},
+                {"what", std::string("MRI")}});
+    else
+      said.add(DiagnosticCode::OutlinedSeriesAbsent, {{"taken", taken}, {"what", std::string("MRI")}});
+  }
+  if (roi.ofDicom && roi.frameOfReferenceUid.empty() && (mri != nullptr || mre != nullptr))
+    said.add(DiagnosticCode::OutlineFrameMissing, {{"image", std::string(mri != nullptr ? "MRI" : "elastogram")}});
+  return said;
+}
+
+void checkOutlines(LoadedRoi& roi, const image::Grid& mriGrid) {
+  if (!roi.contours) return;
+  const Diagnostics doubts = roi::outlineDoubts(*roi.contours, mriGrid, true);
+  roi.diagnostics.add(doubts);
+  append(roi.warnings, doubts.texts(Severity::Warning));
 }
 
 std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& mriGrid) {
@@ -233,8 +354,48 @@ std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& m
   return text;
 }
 
+namespace {
+
+/// Where slices lie unevenly: the region on each of them by itself.
+elastography::MappedRoi mapOnSlices(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
+                                    const elastography::StiffnessMap& map) {
+  const image::Grid& stack = map.values_kPa.grid;
+  elastography::MappedRoi all;
+  all.mask = image::Mask(stack);
+  std::string why;
+  for (std::size_t k = 0; k < map.unevenSlices_mm.size(); ++k) {
+    elastography::StiffnessMap slice;
+    slice.frameOfReferenceUid = map.frameOfReferenceUid;
+    slice.values_kPa.grid = stack;
+    slice.values_kPa.grid.size.z() = 1;
+    slice.values_kPa.grid.origin_lps_mm += map.unevenSlices_mm[k] * stack.direction.col(2);
+    try {
+      elastography::MappedRoi one = mapRoi(roi, mriGrid, slice);
+      std::ranges::copy(one.mask.values, all.mask.values.begin() + static_cast<std::ptrdiff_t>(
+                                                                       stack.linear(0, 0, static_cast<int>(k))));
+      all.coverage += one.coverage;
+      all.coincidentSlices += one.coincidentSlices;
+      all.sampledSlices += one.sampledSlices;
+      all.diagnostics.add(one.diagnostics);
+    } catch (const BadInput& e) {
+      why = e.what();
+    }
+  }
+  if (image::count(all.mask) == 0) throw BadInput(why);
+  all.coverage = std::min(1.0, all.coverage);
+  append(all.warnings, all.diagnostics.texts(Severity::Warning));
+  if (!roi.frameOfReferenceUid.empty() && !map.frameOfReferenceUid.empty() &&
+      roi.frameOfReferenceUid != map.frameOfReferenceUid)
+    all.warnings.push_back(
+        "the region of interest and the elastogram have different frames of reference; confirm that they fit");
+  return all;
+}
+
+}  // namespace
+
 elastography::MappedRoi mapRoi(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
                                const elastography::StiffnessMap& map) {
+  if (!map.unevenSlices_mm.empty()) return mapOnSlices(roi, mriGrid, map);
   if (roi.contours) {
     LoadedRoi complete;
     complete.contours = roi.contours;

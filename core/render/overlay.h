@@ -33,6 +33,8 @@ struct RetractionScene {
   std::optional<Eigen::Vector3d> retractorPoint_lps_mm;            ///< centre of the contact at rest
   Eigen::Vector3d retractorAxis = Eigen::Vector3d::UnitX();        ///< along the bar, LPS
   Eigen::Vector3d retractorDirection = -Eigen::Vector3d::UnitY();  ///< of the hoist, LPS
+  /// Of a rigid bar, along the hoist: it is drawn where it ends; empty: the bar goes with the tissue at its point.
+  std::optional<double> retractorTravel_mm;
   double retractorDiameter_mm = 10.0;
   double retractorLength_mm = 80.0;
   double clinicallySignificant_mm = 5.0;

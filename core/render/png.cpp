@@ -1,10 +1,10 @@
 #include <png.h>
 
 #include <cmath>
-#include <fstream>
 #include <string>
 
 #include "base/error.h"
+#include "base/part_file.h"
 #include "render/picture.h"
 
 namespace glisson::render {
@@ -58,26 +58,9 @@ std::vector<std::uint8_t> encodePng(const Picture& picture, double dpi) {
 
 void writePng(const std::filesystem::path& file, const Picture& picture, double dpi) {
   const std::vector<std::uint8_t> png = encodePng(picture, dpi);
-  std::filesystem::path beside = file;
-  beside += ".part";
-  {
-    std::ofstream out(beside, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-    out.flush();
-    if (!out) {
-      std::error_code ignored;
-      std::filesystem::remove(beside, ignored);
-      throw BadInput("cannot write the picture '" + file.filename().string() +
-                     "': the folder is missing, read-only or full; choose another output folder");
-    }
-  }
-  std::error_code failed;
-  std::filesystem::rename(beside, file, failed);
-  if (failed) {
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    throw BadInput("cannot write the picture '" + file.filename().string() + "': " + failed.message());
-  }
+  PartFile part(file);
+  part.write(png.data(), png.size());
+  part.become();
 }
 
 }  // namespace glisson::render

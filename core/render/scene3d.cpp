@@ -281,7 +281,11 @@ void populateScaled(vtkRenderer* renderer, const RetractionScene& scene, const S
     stage.add(solidSurface(scene.vesselSurface, moving(mre), paint(colour.mre)));
   }
   if (scene.retractorPoint_lps_mm) {
-    const Eigen::Vector3d contact = moving(mre)(*scene.retractorPoint_lps_mm);
+    const Eigen::Vector3d& rest = *scene.retractorPoint_lps_mm;
+    const Eigen::Vector3d contact =
+        scene.retractorTravel_mm
+            ? Eigen::Vector3d(rest + options.t * *scene.retractorTravel_mm * scene.retractorDirection.normalized())
+            : moving(mre)(rest);
     const Eigen::Vector3d centre = contact - 0.5 * scene.retractorDiameter_mm * scene.retractorDirection.normalized();
     if (options.retractor)
       stage.add(steelBar(centre, scene.retractorAxis, scene.retractorLength_mm, scene.retractorDiameter_mm));

@@ -92,6 +92,7 @@ struct FaceTraction {
 /// The scene as a mechanics problem, with what is needed to read the answer back.
 struct MechanicsScene {
   mechanics::Problem problem;
+  std::vector<mechanics::Foundation> foundations;    ///< what problem.supports.springs are lumped from
   std::vector<mechanics::NodalField> loads_N;        ///< one per load of the setup; their sum is problem.f_N
   std::vector<std::vector<FaceTraction>> tractions;  ///< per load: what it puts on which face; empty for body forces
   std::optional<Contact> contact;

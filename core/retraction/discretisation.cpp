@@ -38,6 +38,50 @@ bool mergesExactly(const retraction::Model& model) {
   return true;
 }
 
+/// Cells in a line below which shape and bending are not resolved: two grids of one and two cells agree for the wrong
+/// reason.
+constexpr int fewCells = 3;
+
+/// Share of the body's cells that lie, along some axis, in a run of at most fewCells from surface to surface.
+double thinShare(const retraction::Model& model) {
+  const image::Grid& g = model.youngs_kPa.grid;
+  std::vector<char> thin(model.youngs_kPa.values.size(), 0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    Eigen::Vector3i p;
+    for (p[c] = 0; p[c] < g.size[c]; ++p[c])
+      for (p[b] = 0; p[b] < g.size[b]; ++p[b])
+        for (int begin = 0, end = 0; begin < g.size[axis]; begin = end + 1) {
+          const auto filled = [&](int i) {
+            p[axis] = i;
+            return i < g.size[axis] && model.youngs_kPa.at(p) > 0;
+          };
+          for (end = begin; filled(end);) ++end;
+          if (end - begin > fewCells) continue;
+          for (int i = begin; i < end; ++i) {
+            p[axis] = i;
+            thin[g.linear(p)] = 1;
+          }
+        }
+  }
+  double count = 0.0;
+  for (const char t : thin) count += t;
+  return model.cells > 0 ? count / static_cast<double>(model.cells) : 0.0;
+}
+
+/// The scene's elements grow stiffer with ν on any cells, so that two grids agree on what both miss.
+bool locks(const Setup& setup, double poisson) {
+  if (poisson <= 0.49 || setup.kinematics == Kinematics::Hyperelastic) return false;
+  return (setup.model.kind == ModelKind::FemHex && setup.model.element == mechanics::HexElement::H8) ||
+         (setup.model.kind == ModelKind::FemTet && !setup.model.quadraticTets);
+}
+
+/// Nine incompatible modes lock so late that their distance from B-bar hexahedra is an honest share of the error.
+bool locksSlightly(const Setup& setup, double poisson) {
+  return poisson > 0.499 && setup.kinematics != Kinematics::Hyperelastic && setup.model.kind == ModelKind::FemHex &&
+         setup.model.element == mechanics::HexElement::Incompatible;
+}
+
 void requireConverged(const retraction::Result& r) {
   if (!r.solver.converged())
     throw SolverFailed("the solve on the other grid did not converge", r.solver.iterations, r.solver.residual,
@@ -132,10 +176,48 @@ std::vector<Vector3d> contactPoints(const Model& model, const Result& result) {
 /// What an answer misses at points, mm: NaN where one of the grids does not reach. An error e of first order differs by
 /// e (ratio − 1) from that of larger cells, and by e / 2 from that of half cells.
 struct Missed {
-  std::vector<Vector3d> byFrames;  ///< from the voxel FEM on the same cells, where the model is mesh-free
+  std::vector<Vector3d> byModel;  ///< from the voxel FEM on the same cells, where the model is mesh-free; from B-bar
+                                  ///< hexahedra, where the elements lock a little
   std::vector<Vector3d> byCells;
   double cell_mm = 0.0, coarse_mm = 0.0;
 };
+
+/// The answer of B-bar hexahedra on the same cells, which do not lock.
+Result byBBar(const Model& model, Setup setup, const Result& result, const Progress& progress) {
+  setup = held(setup, model, result);
+  setup.model.kind = ModelKind::FemHex;
+  setup.model.element = mechanics::HexElement::BBar;
+  setup.solver = {};
+  setup.condensed = false;
+  Result r = simulate(model, setup, {}, progress);
+  requireConverged(r);
+  return r;
+}
+
+/// Why the error of elements that lock is not known, with what B-bar hexahedra say instead.
+std::string lockingNote(const Model& model, const Setup& setup, const Result& result,
+                        const std::vector<Vector3d>& points, const Progress& progress) {
+  std::ostringstream t;
+  t.precision(3);
+  t << "discretisation error unknown: "
+    << (setup.model.kind == ModelKind::FemHex ? "plain hexahedra" : "linear tetrahedra")
+    << " are too stiff at a Poisson's ratio of " << model.poisson
+    << " on cells of any size, so that two grids agree on "
+    << "what both miss";
+  if (!setup.model.delaunay) {
+    const std::vector<Vector3d> other = displacementAt(model, byBBar(model, setup, result, progress), points);
+    const std::vector<Vector3d> own = displacementAt(model, result, points);
+    double mean = 0.0, most = 0.0;
+    for (std::size_t i = 0; i < model.cells; ++i) {
+      const double d = (own[i] - other[i]).norm();
+      mean += d / static_cast<double>(model.cells);
+      most = std::max(most, d);
+    }
+    t << "; B-bar hexahedra on the same cells are " << mean << " mm away on average, " << most << " mm at most";
+  }
+  t << ". Use \"H8-Bbar\", or quadratic tetrahedra";
+  return t.str();
+}
 
 Missed missed(const Model& model, const Setup& setup, const Result& result, const std::vector<Vector3d>& points,
               const Progress& progress) {
@@ -153,11 +235,18 @@ Missed missed(const Model& model, const Setup& setup, const Result& result, cons
     requireConverged(full);
     fine = displacementAt(model, full, points);
   }
+  if (locksSlightly(setup, model.poisson))
+    fine = displacementAt(model, byBBar(model, setup, result, progress.part(0.0, 0.5)), points);
+  const std::vector<Vector3d>& cellwise = frames ? fine : own;
   // Tetrahedra of their own size: the same body, in cells twice as large.
   const bool delaunay = setup.model.kind == ModelKind::FemTet && setup.model.delaunay;
   m.cell_mm = delaunay ? setup.model.cell_mm : model.youngs_kPa.grid.spacing_mm.maxCoeff();
-  const bool split = setup.model.kind == ModelKind::FemHex && setup.kinematics == Kinematics::Linear && !result.contact &&
-                     model.cells <= splitLimit && !mergesExactly(model);
+  const bool thin = !delaunay && !result.contact && thinShare(model) > 0.5;
+  const bool split = voxels.model.kind == ModelKind::FemHex && setup.kinematics == Kinematics::Linear && !result.contact &&
+                     model.cells <= splitLimit && (thin || (!frames && !mergesExactly(model)));
+  if (thin && !split)
+    throw BadInput("most of the body is at most " + std::to_string(fewCells) +
+                   " cells thick, so that cells of twice the edge say nothing of its error; use smaller cells");
   const Model other = delaunay ? model : split ? refined(model) : coarsened(model);
   const Progress rest = progress.part(frames ? 0.8 : 0.0, 1.0);
   double ratio = 2.0;
@@ -167,15 +256,15 @@ Missed missed(const Model& model, const Setup& setup, const Result& result, cons
   const std::vector<Vector3d> coarse = displacementAt(other, rough, points);
   const double share = split ? 2.0 : 1.0 / (ratio - 1.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    m.byFrames.push_back(own[i] - fine[i]);
-    m.byCells.push_back(share * (fine[i] - coarse[i]));
+    m.byModel.push_back(own[i] - fine[i]);
+    m.byCells.push_back(share * (cellwise[i] - coarse[i]));
   }
   return m;
 }
 
 std::vector<double> lengths(const Missed& m) {
   std::vector<double> l;
-  for (std::size_t i = 0; i < m.byCells.size(); ++i) l.push_back(m.byFrames[i].norm() + m.byCells[i].norm());
+  for (std::size_t i = 0; i < m.byCells.size(); ++i) l.push_back(m.byModel[i].norm() + m.byCells[i].norm());
   return l;
 }
 
@@ -209,7 +298,7 @@ std::optional<DiscretisationError::OfDifference> ofDifference(Missed own, const 
     return {};
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    own.byFrames[i] -= other.byFrames[i];
+    own.byModel[i] -= other.byModel[i];
     own.byCells[i] -= other.byCells[i];
   }
   const std::vector<double> all = lengths(own);
@@ -237,6 +326,10 @@ DiscretisationError discretisationError(const retraction::Model& model, const re
     std::vector<Vector3d> points = centres(model);
     const std::vector<Vector3d> contact = contactPoints(model, result);
     points.insert(points.end(), contact.begin(), contact.end());
+    if (locks(setup, model.poisson)) {
+      e.note = lockingNote(model, setup, result, points, progress);
+      return e;
+    }
     const Missed own = missed(model, setup, result, points, progress.part(0.0, second ? 0.5 : 1.0));
     e.cell_mm = own.cell_mm;
     e.coarse_mm = own.coarse_mm;

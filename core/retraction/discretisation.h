@@ -48,13 +48,16 @@ retraction::Setup held(const retraction::Setup& setup, const retraction::Model& 
 /// first order, as staircase surfaces and clamped edges make it, and (2^p − 1) times the error where it falls with
 /// order p: up to three times for linear shape functions, up to seven times for quadratic ones. A body of at most
 /// 20,000 voxels that cannot be merged two by two without changing its shape is split instead: 2 |u_h − u_h/2|, the
-/// same to first order. Delaunay tetrahedra that fail their gates at twice the edge are made 1.75 or 1.5 times as
-/// large, and the difference divided by ratio − 1. Where cells are not smaller than what bends, the estimate falls
-/// short of the error, that of linear tetrahedra by far (a plate as thick as one cell: a thirtieth). For a mesh-free
-/// result the distance from the voxel FEM on its own cells is added. Costs one solve with an eighth of the cells
-/// (mesh-free: one more with all of them), twice that with a second answer. Throws Cancelled; whatever else goes wrong
-/// on the coarse grid is told in the note. second: the same is done for it, and the error of the difference told.
-/// Contact nodes that lie off the coarse body by more than half of its cells count in no mean.
+/// same to first order; so is one of which more than half the cells lie in a run of at most three from surface to
+/// surface, whose merged cells would be too few to bend; where such a body is larger, or not of linear hexahedra, the
+/// error is unknown. It is unknown too for elements that lock, plain hexahedra and linear tetrahedra at a Poisson's
+/// ratio above .49: the note then has the distance from B-bar hexahedra on the same cells, which for incompatible modes
+/// above .499 is added. Delaunay tetrahedra that fail their gates at twice the edge are made 1.75 or 1.5 times as
+/// large, and the difference divided by ratio − 1. For a mesh-free result the distance from the voxel FEM on its own
+/// cells is added. Costs one solve with an eighth of the cells (mesh-free: one more with all of them), twice that with
+/// a second answer. Throws Cancelled; whatever else goes wrong on the coarse grid is told in the note. second: the same
+/// is done for it, and the error of the difference told. Contact nodes that lie off the coarse body by more than half
+/// of its cells count in no mean.
 DiscretisationError discretisationError(const retraction::Model& model, const retraction::Setup& setup,
                                         const retraction::Result& result, const Progress& progress = {},
                                         const SecondAnswer* second = nullptr);

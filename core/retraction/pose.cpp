@@ -162,7 +162,10 @@ std::vector<Pose> poseCandidates(const SmoothBody& body, const mechanics::Triang
   search(given.value_or(0.0));
   if (!given && std::none_of(places.begin(), places.end(), asWanted))
     for (const double share : {0.5, -0.5, 1.0, -1.0}) search(share * largestTurn);
-  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.quality > b.quality; });
+  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    if (a.quality != b.quality) return a.quality > b.quality;
+    return a.at.y() != b.at.y() ? a.at.y() < b.at.y() : std::abs(a.seen.slope) < std::abs(b.seen.slope);
+  });
 
   std::vector<Pose> poses;
   for (const Place& place : places) {

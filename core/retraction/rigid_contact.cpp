@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "mechanics/contact/contact_setup.h"
 #include "mechanics/supports.h"
-#include "retraction/pose.h"
 #include "retraction/smooth_body.h"
 
 namespace glisson::retraction {
@@ -180,7 +179,7 @@ void addSupports(const Body& body, const Model& model, const Setup& setup, const
     if (f.node >= 0) supports.fixations.push_back(f);
   }
   for (const SupportSpec& s : setup.supports) {
-    if (s.kind != SupportSpec::Kind::Spring || !(s.stiffness_kPa_per_mm > 0)) continue;
+    if (s.kind != SupportSpec::Kind::Spring || s.unilateral || !(s.stiffness_kPa_per_mm > 0)) continue;
     const double k_N_m3 = mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm;
     const std::optional<Eigen::Vector3d> look = model.smooth ? lookOf(s.region) : std::nullopt;
     if (!look) {
@@ -203,6 +202,33 @@ void addSupports(const Body& body, const Model& model, const Setup& setup, const
         supports.springs.push_back({node, share * k_N_m3 * seen_m2 * along});
     }
   }
+}
+
+/// What only large deformation has: pressures that follow their faces, and springs that press only.
+void addFollowing(const Body& body, const Setup& setup, const Eigen::Vector3d& shift_m, mechanics::ContactProblem& p) {
+  const mechanics::VoxelMesh& mesh = body.mesh();
+  const auto corners = [&](const SurfaceFace& f) {
+    std::array<Eigen::Vector3d, 4> c;
+    for (std::size_t i = 0; i < 4; ++i) c[i] = mesh.position_m(f.nodes[i]) + shift_m;
+    // In turn round the face, anticlockwise seen from outside.
+    const Eigen::Vector3d middle = 0.25 * (c[0] + c[1] + c[2] + c[3]), normal = mechanics::faceNormal(f.face.side);
+    const Eigen::Vector3d first = c[0] - middle, second = normal.cross(first);
+    std::sort(c.begin(), c.end(), [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      const auto angle = [&](const Eigen::Vector3d& v) { return std::atan2((v - middle).dot(second), (v - middle).dot(first)); };
+      return angle(a) < angle(b);
+    });
+    return c;
+  };
+  for (const LoadSpec& load : setup.loads)
+    if (const auto* pressure = std::get_if<Pressure>(&load); pressure != nullptr && pressure->follows)
+      for (const SurfaceFace* f : body.faces(pressure->region))
+        p.pressures.push_back({corners(*f), 1e3 * pressure->kPa});
+  for (const SupportSpec& s : setup.supports)
+    if (s.kind == SupportSpec::Kind::Spring && s.unilateral && s.stiffness_kPa_per_mm > 0)
+      for (const SurfaceFace* f : body.faces(s.region))
+        for (const int node : f->nodes)
+          p.bed.push_back({mesh.position_m(node) + shift_m, mechanics::faceNormal(f->face.side),
+                           0.25 * mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm * f->area_m2});
 }
 
 /// The capsule as a stiffening of the cells that the surface passes through: membrane tension over the cell's height.
@@ -239,17 +265,30 @@ std::optional<Retractor> rigidBarOf(const Setup& setup) {
   for (const LoadSpec& load : setup.loads) {
     const auto* r = std::get_if<Retractor>(&load);
     if (r == nullptr || r->contact == ContactKind::Patch) continue;
-    const char* offered = setup.model.kind != ModelKind::FemHex ? "the model \"fem-hex\""
+    const char* refused = setup.model.kind != ModelKind::FemHex ? "the model \"fem-hex\""
                           : setup.analysis.dynamic              ? "the static analysis"
                           : setup.condensed                     ? "solvers other than \"condensed\""
                           : setup.kinematics == Kinematics::Corotational
                               ? "kinematics \"hyperelastic\", \"linear\" or \"auto\""
                               : nullptr;
-    if (offered == nullptr) return *r;
-    throw BadInput(std::string("a rigid retractor is offered for ") + offered +
-                   " only: change that, or ask for \"contact\": \"patch\" with a force");
+    if (refused == nullptr) return *r;
+    if (r->contact == ContactKind::Rigid || r->travel_mm || r->shape == BarShape::Hook)
+      throw BadInput(std::string("a rigid retractor is offered for ") + refused +
+                     " only: change that, or ask for \"contact\": \"patch\" with a force");
   }
   return {};
+}
+
+bool inLargeDeformation(const Setup& setup) {
+  return setup.kinematics == Kinematics::Hyperelastic || rigidBarOf(setup).has_value();
+}
+
+mechanics::ContactProblem withoutBar(const Body& body, const Setup& setup, const MechanicsScene& scene) {
+  mechanics::ContactProblem p;
+  p.problem = scene.problem;
+  p.law = setup.law.value_or(mechanics::SolidLaw::Logarithmic);
+  addFollowing(body, setup, Eigen::Vector3d::Zero(), p);
+  return p;
 }
 
 ContactScene contactScene(const Body& body, const Model& model, const Setup& setup, const MechanicsScene& scene,
@@ -270,6 +309,7 @@ ContactScene contactScene(const Body& body, const Model& model, const Setup& set
     const Eigen::Vector3i at = body.mesh().latticeOf(node) + out.layers;
     if (const int to = mesh.nodeAt(at.x(), at.y(), at.z()); to >= 0) p.problem.f_N.col(to) += scene.problem.f_N.col(node);
   }
+  addFollowing(body, setup, shift_m, p);
   p.law = setup.kinematics == Kinematics::Linear ? mechanics::SolidLaw::Linear
                                                   : setup.law.value_or(mechanics::SolidLaw::Polynomial);
   if (setup.capsule) p.skin_Pa = capsuleCells(p.problem.body, p.surface, *setup.capsule);
@@ -359,61 +399,6 @@ RigidContactAnswer solveRigidContact(const Body& body, const Model& model, const
   answer.solution = std::move(s.solution);
   toModelNodes(body, contact, answer.solution);
   return answer;
-}
-
-PlacedBar placeBar(const Model& model, const Model* other, const Setup& setup, const Progress& progress) {
-  std::optional<Retractor> bar = rigidBarOf(setup);
-  if (!bar) throw BadArgument("placeBar: the scene has no rigid retractor");
-  PlacedBar placed;
-  if (!model.smooth) {
-    if (!bar->at_mm) throw BadInput("the retractor on a box needs its place: give \"at\" as a point");
-    placed.bar = *bar;
-    placed.bar.axis = bar->patchAxis();
-    return placed;
-  }
-  const mechanics::TriangleSurface surface = model.smooth->surface();
-  const auto at = [&](const Pose& pose) {
-    Retractor r = *bar;
-    r.at_mm = pose.centre_mm;
-    r.axis = pose.axis;
-    return r;
-  };
-  if (bar->at_mm) {
-    placed.pose = poseAt(surface, *bar, *bar->at_mm);
-    placed.bar = at(*placed.pose);
-    return placed;
-  }
-  constexpr double proof = 1.1;
-  constexpr std::size_t most = 6;  // places tried
-  const std::vector<Pose> candidates = poseCandidates(*model.smooth, surface, *bar);
-  double best = -1;
-  for (std::size_t i = 0; i < std::min(most, candidates.size()); ++i) {
-    const Retractor r = at(candidates[i]);
-    double least = 1e9;
-    for (const Model* m : {&model, other}) {
-      if (m == nullptr || (m == other && least < 1)) continue;
-      const Body body(*m);
-      const ContactScene contact = contactScene(body, *m, setup, toMechanics(body, *m, setup), r);
-      mechanics::ContactOptions options;
-      options.pathOnly = true;
-      options.proof = proof;
-      options.tolerance = 1e-2;
-      const mechanics::ContactSolution s = mechanics::solveContact(contact.problem, options, progress);
-      const double asked = contact.problem.force_N ? proof * *contact.problem.force_N : 0;
-      least = std::min(least, s.outcome == mechanics::ContactOutcome::Reached || asked == 0
-                                  ? proof
-                                  : proof * s.capacity_N / asked);
-    }
-    placed.tried.push_back({candidates[i].height_mm, least});
-    if (least > best) {
-      best = least;
-      placed.pose = candidates[i];
-      placed.bar = r;
-    }
-    if (best >= proof) break;
-  }
-  placed.bears = best >= 1;
-  return placed;
 }
 
 }  // namespace glisson::retraction

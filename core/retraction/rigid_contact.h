@@ -40,6 +40,12 @@ struct PlacedBar {
 /// point is not on a surface that looks against the hoist.
 PlacedBar placeBar(const Model& model, const Model* other, const Setup& setup, const Progress& progress);
 
+/// The scene without a rigid bar, in large deformation on its own cells.
+mechanics::ContactProblem withoutBar(const Body& body, const Setup& setup, const MechanicsScene& scene);
+
+/// True where the scene is solved by mechanics::solveContact: pressures may follow their faces, springs press only.
+bool inLargeDeformation(const Setup& setup);
+
 /// An answer on the nodes of the model's own cells, and what bar and liver do to each other.
 struct RigidContactAnswer {
   mechanics::Solution solution;

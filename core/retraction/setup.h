@@ -47,6 +47,7 @@ struct SupportSpec {
   Eigen::Vector3d displacement_mm = Eigen::Vector3d::Zero();  ///< Fixed: held at this
   double stiffness_kPa_per_mm = 0.0;                          ///< Spring: Winkler foundation
   bool normalOnly = false;                                    ///< Spring: resists along the face normal only
+  bool unilateral = false;  ///< Spring: presses along the face normal, does not pull; large deformation only
 };
 
 struct BodyForce {
@@ -59,6 +60,7 @@ struct Traction {
 struct Pressure {
   Region region;
   double kPa;
+  bool follows = false;  ///< large deformation: stays normal to the deformed faces and grows with them
 };  ///< positive pushes against the outward normal
 /// How the bar meets the liver. Rigid: a body of its own that pushes and does not pull, without friction. Patch: its
 /// force spread over the surface at rest.
@@ -67,6 +69,11 @@ enum class ContactKind { Rigid, Patch };
 /// quarter turn across the hoist, as the blade of a Nathanson retractor.
 enum class BarShape { Straight, Hook };
 struct Retractor {
+  struct Range {
+    double least, most;
+  };
+  /// What is accepted: an instrument, and not a wire or a wall.
+  static constexpr Range diameters_mm{1.0, 100.0}, lengths_mm{1.0, 300.0}, spreads_mm{0.0, 100.0}, forces_N{0.0, 500.0};
   double diameter_mm = 10.0;
   double length_mm = 80.0;
   double spread_mm = 10.0;  ///< tissue wraps round the bar: standard deviation of the pressure beyond it; 0 = bare bar
@@ -74,7 +81,8 @@ struct Retractor {
   std::optional<double> force_N;         ///< empty: the liver's weight
   Eigen::Vector3d direction{0, -1, 0};  ///< of the hoist, LPS; "transverse" = towards anterior, in the transverse plane
   std::optional<Eigen::Vector3d> axis;  ///< of the bar, LPS; empty: from geometry (a rigid bar), x (a patch)
-  ContactKind contact = ContactKind::Patch;
+  /// Empty, as a scene that does not say it has it: rigid where model and analysis offer it, else patch.
+  std::optional<ContactKind> contact = ContactKind::Patch;
   std::optional<double> travel_mm;      ///< the bar's way from its first touch, instead of a force
   BarShape shape = BarShape::Straight;
 
@@ -97,7 +105,7 @@ struct AnalysisSpec {
   double h_ms = 1.0;
   double end_s = 2.0;
   std::array<double, 2> rayleigh = {0.0, 0.0};  ///< alpha 1/s, beta s
-  double stopWhenSteady = 1e-6;                 ///< relative change per step; 0 = never
+  double stopWhenSteady = 1e-6;  ///< relative unbalance and motion per step at rest (mechanics::isAtRest); 0 = never
 };
 
 /// How strain follows from displacement. Auto: linear where that is right to 0.2 mm, else hyperelastic.

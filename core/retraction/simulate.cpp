@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include <sstream>
 
@@ -13,6 +12,7 @@
 #include "mechanics/meshfree.h"
 #include "mechanics/newton_solve.h"
 #include "mechanics/static_solve.h"
+#include "mechanics/tet_faces.h"
 #include "mechanics/tet_solve.h"
 #include "retraction/body.h"
 #include "retraction/condensed_solve.h"
@@ -32,6 +32,7 @@ struct Answer {
   int steps = 0;
   std::vector<std::string> notes;
   std::optional<RigidContact> contact;
+  bool useless = false;             ///< the model cannot deform as this body does
   std::vector<std::string> limits;  ///< what the mesh-free model could not give as asked for
 };
 
@@ -43,6 +44,18 @@ mechanics::DynamicOptions dynamicOptions(const AnalysisSpec& a) {
   d.rayleighBeta_s = a.rayleigh[1];
   d.stopWhenSteady = a.stopWhenSteady;
   return d;
+}
+
+/// What a reader of the last state of a motion should know.
+void noteMotion(const AnalysisSpec& a, int steps, bool steady, std::vector<std::string>& notes) {
+  const mechanics::TimeSteps plan = mechanics::timeSteps(1e-3 * a.h_ms, a.end_s);
+  Diagnostics said;
+  if (plan.h_s < 1e-3 * a.h_ms)
+    said.add(
+        DiagnosticCode::TimeStepShortened,
+        {{"asked_ms", a.h_ms}, {"taken_ms", 1e3 * plan.h_s}, {"steps", std::int64_t{plan.count}}, {"end_s", a.end_s}});
+  if (a.stopWhenSteady > 0.0 && !steady) said.add(DiagnosticCode::MotionNotAtRest, {{"seconds", steps * plan.h_s}});
+  for (std::string& text : said.texts()) notes.push_back(std::move(text));
 }
 
 /// Nothing that a scene asks for is passed over in silence.
@@ -65,38 +78,6 @@ void requireOffered(const Setup& setup) {
     throw BadInput("condensed responses are made from voxels: use the model \"fem-hex\"");
 }
 
-/// Tractions on voxel faces as consistent forces on the two triangles of each: a third of a triangle's force to each
-/// corner (T4), to each middle (T10, whose corners take none).
-void addTractions(const Body& body, const mechanics::TetMesh& mesh, const std::vector<FaceTraction>& tractions,
-                  mechanics::NodalField& f_N) {
-  std::map<std::array<int, 3>, mechanics::TetFace> triangles;
-  for (const mechanics::TetFace& t : mechanics::exteriorFaces(mesh)) {
-    const std::vector<int> n = mechanics::nodesOf(mesh, t);
-    std::array<int, 3> key = {n[0], n[1], n[2]};
-    std::sort(key.begin(), key.end());
-    triangles[key] = t;
-  }
-  for (const FaceTraction& traction : tractions) {
-    const std::array<int, 4> corners = mechanics::faceNodes(body.mesh(), traction.face);
-    const Eigen::Vector3d share_N =
-        traction.traction_Pa * mechanics::faceArea_m2(body.mesh(), traction.face.side) / 6.0;
-    int found = 0;
-    for (std::size_t left = 0; left < 4; ++left) {
-      std::array<int, 3> key{};
-      std::size_t at = 0;
-      for (std::size_t c = 0; c < 4; ++c)
-        if (c != left) key[at++] = corners[c];
-      std::sort(key.begin(), key.end());
-      const auto triangle = triangles.find(key);
-      if (triangle == triangles.end()) continue;
-      ++found;
-      const std::vector<int> n = mechanics::nodesOf(mesh, triangle->second);
-      for (std::size_t c = mesh.quadratic() ? 3 : 0; c < n.size(); ++c) f_N.col(n[c]) += share_N;
-    }
-    if (found != 2) throw BadArgument("a voxel face does not consist of two triangles of the tetrahedral mesh");
-  }
-}
-
 Answer solveOnTets(const Model& model, const Body& body, const MechanicsScene& scene, const Setup& setup,
                    const Progress& progress) {
   Answer a;
@@ -109,11 +90,15 @@ Answer solveOnTets(const Model& model, const Body& body, const MechanicsScene& s
   }
   const auto order = setup.model.quadraticTets ? mechanics::TetOrder::Quadratic : mechanics::TetOrder::Linear;
   mechanics::TetProblem tets = mechanics::onTetrahedra(scene.problem, order);
+  if (setup.model.quadraticTets) mechanics::layFoundations(tets, body.mesh(), scene.foundations);
+  const mechanics::VoxelFacesOnTets faces(body.mesh(), tets.mesh);
   tets.f_N.setZero();
   for (std::size_t i = 0; i < setup.loads.size(); ++i) {
     if (const auto* load = std::get_if<BodyForce>(&setup.loads[i]))
       tets.f_N += mechanics::bodyForce(tets.mesh, body.vectorToLocal(load->N_per_m3));
-    addTractions(body, tets.mesh, scene.tractions[i], tets.f_N);
+    for (const FaceTraction& t : scene.tractions[i])
+      for (const auto& [node, share] : faces.shares(t.face))
+        tets.f_N.col(node) += share * mechanics::faceArea_m2(body.mesh(), t.face.side) * t.traction_Pa;
   }
   a.solution = mechanics::solveTets(scene.problem, tets, setup.solver, progress);
   a.dofs = 3 * tets.mesh.nodeCount();
@@ -135,11 +120,13 @@ Answer solve(const Model& patient, const Body& body, const MechanicsScene& scene
     a.frames = model.frames();
     a.notes = model.notes();
     a.limits = model.basis().notes();
+    a.useless = model.basis().flatShare() > 0.5;
     if (setup.analysis.dynamic) {
       mechanics::DynamicSolution d =
           mechanics::solveDynamic(model, dynamicOptions(setup.analysis), options, progress.part(0.5, 1.0));
       a.steps = d.trajectory.steps;
       a.solution = std::move(d.solution);
+      noteMotion(setup.analysis, a.steps, d.trajectory.steady, a.notes);
     } else {
       a.solution = model.solveStatic(options, progress.part(0.5, 1.0));
     }
@@ -149,25 +136,26 @@ Answer solve(const Model& patient, const Body& body, const MechanicsScene& scene
     CondensedAnswer c = solveCondensed(problem, scene.loads_N, setup, progress);
     a.solution = std::move(c.solution);
     a.steps = c.steps;
+    if (setup.analysis.dynamic) {
+      noteMotion(setup.analysis, c.steps, c.steady, a.notes);
+      a.notes.push_back(Diagnostic{DiagnosticCode::CondensedMotionError, {{"error_mm", c.error_mm}}}.text());
+    }
   } else if (setup.kinematics != Kinematics::Linear) {
-    a.solution = mechanics::solveLargeDeformation(problem,
-                                                  setup.kinematics == Kinematics::Corotational
-                                                      ? mechanics::LargeDeformationKind::Corotational
-                                                      : mechanics::LargeDeformationKind::Hyperelastic,
-                                                  options, progress);
+    if (setup.kinematics == Kinematics::Corotational) {
+      a.solution =
+          mechanics::solveLargeDeformation(problem, mechanics::LargeDeformationKind::Corotational, options, progress);
+    } else {
+      mechanics::ContactOptions contact;
+      contact.tolerance = options.tolerance;
+      a.solution = mechanics::solveContact(withoutBar(body, setup, scene), contact, progress).solution;
+    }
     if (setup.kinematics == Kinematics::Hyperelastic)
       a.notes.push_back("hyperelastic kinematics use mean-dilatation hexahedra, whatever element the scene names");
   } else if (setup.analysis.dynamic) {
     mechanics::DynamicSolution d = mechanics::solveDynamic(problem, dynamicOptions(setup.analysis), options, progress);
     a.steps = d.trajectory.steps;
     a.solution = std::move(d.solution);
-    const double reached_s = 1e-3 * setup.analysis.h_ms * a.steps;
-    if (setup.analysis.stopWhenSteady > 0.0 && reached_s >= setup.analysis.end_s * (1.0 - 1e-9)) {
-      std::ostringstream text;
-      text << "the motion had not come to rest after " << reached_s
-           << " s; raise \"end_s\", or the damping, where the state at rest is wanted";
-      a.notes.push_back(text.str());
-    }
+    noteMotion(setup.analysis, a.steps, d.trajectory.steady, a.notes);
   } else {
     a.solution = mechanics::solveStatic(problem, options, progress);
   }
@@ -253,6 +241,7 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
   r.frames = answer.frames;
   r.steps = answer.steps;
   r.notes = std::move(answer.notes);
+  for (std::string& text : s.report.diagnostics.texts(Severity::Warning)) r.notes.push_back(std::move(text));
   r.energy_J = s.energy_J;
   r.load_N = body.vectorToLps(scene.problem.f_N.rowwise().sum());
   r.reaction_N = body.vectorToLps(s.reaction_N.rowwise().sum());
@@ -269,6 +258,7 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
   }
   judge(body, s, r);
   for (const std::string& limit : answer.limits) r.validity.push_back("mesh-free model: " + limit);
+  if (answer.useless) r.drawable = r.linearTrusted = false;
   if (scene.contact) {
     r.retractorPoint_mm = scene.contact->centre_mm;
     r.contactArea_mm2 = scene.contact->area_mm2;

@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "image/volume.h"
 #include "mechanics/problem.h"
+#include "retraction/linear_gap.h"
 #include "retraction/setup.h"
 
 namespace glisson::retraction {
@@ -78,8 +79,9 @@ struct Result {
   /// Corotational: converged, no inverted cell, and p95 strain below 10 % (its strains are small-strain). Hyperelastic:
   /// converged, no inverted cell.
   bool linearTrusted = false;
-  std::vector<std::string> validity;  ///< warnings in words, most serious first
-  bool drawable = true;               ///< false: not converged, inverted cells, displacement larger than the body
+  std::optional<LinearGap> linearGap;  ///< where judgeByGap found it
+  std::vector<std::string> validity;   ///< warnings in words, most serious first
+  bool drawable = true;                ///< false: not converged, inverted cells, displacement larger than the body
   std::optional<Eigen::Vector3d> retractorPoint_mm;  ///< centre of the contact
   double contactArea_mm2 = 0.0;                      ///< that bears on the liver, seen along the hoist
   std::vector<int> contactNodes;                     ///< of a patch

@@ -81,12 +81,33 @@ mechanics::NodalField nodalForces(const Body& body, const std::vector<FaceTracti
   return mechanics::tractionForce(body.mesh(), faces, traction_Pa);
 }
 
+/// Refuses a bar that no instrument is, and a force that pushes it the other way.
+void requireSensible(const Retractor& bar) {
+  const auto within = [](const char* key, double value, const Retractor::Range& range, const char* unit) {
+    if (value >= range.least && value <= range.most) return;
+    std::ostringstream text;
+    text << "the retractor's \"" << key << "\" is " << value << " " << unit << "; it must lie between " << range.least
+         << " and " << range.most << " " << unit;
+    throw BadInput(text.str());
+  };
+  within("diameter_mm", bar.diameter_mm, Retractor::diameters_mm, "mm");
+  within("length_mm", bar.length_mm, Retractor::lengths_mm, "mm");
+  within("spread_mm", bar.spread_mm, Retractor::spreads_mm, "mm");
+  if (bar.force_N && *bar.force_N < 0.0)
+    throw BadInput(
+        "the retractor's \"force\" is negative; give its size, and turn \"direction\" where the bar pulls the "
+        "other way");
+  if (bar.force_N) within("force", *bar.force_N, Retractor::forces_N, "N");
+}
+
 /// Surface loads become tractions on faces; body forces have none.
 struct LoadBuilder {
   const Body& body;
   const Model& model;
   std::optional<Contact>& contact;
   bool rigid;
+  bool large;         ///< solved in large deformation: what follows is no dead load
+  bool corotational;
 
   std::vector<FaceTraction> operator()(const BodyForce&) const { return {}; }
   std::vector<FaceTraction> operator()(const Traction& load) const {
@@ -96,12 +117,17 @@ struct LoadBuilder {
     return out;
   }
   std::vector<FaceTraction> operator()(const Pressure& load) const {
+    if (load.follows && large) return {};  // the contact solver lets it follow
+    if (load.follows && corotational)
+      throw BadInput("a pressure that follows its faces is offered for kinematics \"hyperelastic\": choose these, or leave "
+                     "\"follows\" out");
     std::vector<FaceTraction> out;
     for (const SurfaceFace* f : body.faces(load.region))
       out.push_back({f->face, -kPaToPa * load.kPa * mechanics::faceNormal(f->face.side)});
     return out;
   }
   std::vector<FaceTraction> operator()(const Retractor& load) const {
+    requireSensible(load);
     if (rigid) return {};  // the bar is no load: the contact solver moves it
     const Eigen::Vector3d at_mm =
         load.at_mm ? *load.at_mm : defaultHoistPoint(body, model, load);
@@ -153,17 +179,30 @@ MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& se
   MechanicsScene scene;
   scene.problem.body = body.voxels();
   std::map<int, mechanics::Fixation> fixations;
+  std::vector<mechanics::Spring> pressing;  // hold the body as well, but are no springs of the linear problem
   for (const SupportSpec& s : setup.supports) {
+    if (s.unilateral && !inLargeDeformation(setup))
+      throw BadInput("a spring that only presses (\"unilateral\") is offered for kinematics \"hyperelastic\" or a rigid "
+                     "retractor: change that, or let it pull as well");
+    std::vector<mechanics::Foundation> own;
     if (s.kind == SupportSpec::Kind::Fixed)
       addFixed(body, s, fixations);
     else if (s.stiffness_kPa_per_mm > 0)
-      for (const mechanics::Spring& spring : mechanics::faceSprings(
-               body.mesh(), meshFaces(body, s.region), mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm,
+      for (const mechanics::Foundation& f : mechanics::foundations(
+               meshFaces(body, s.region), mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm,
                s.normalOnly ? mechanics::SpringDirection::Normal : mechanics::SpringDirection::Every))
-        scene.problem.supports.springs.push_back(spring);
+        own.push_back(f);
+    for (const mechanics::Spring& spring : mechanics::faceSprings(body.mesh(), own))
+      (s.unilateral ? pressing : scene.problem.supports.springs).push_back(spring);
+    if (s.unilateral) continue;
+    scene.foundations.insert(scene.foundations.end(), own.begin(), own.end());
   }
   for (const auto& [node, f] : fixations) scene.problem.supports.fixations.push_back(f);
-  if (!setup.analysis.dynamic) requireSupported(body, scene.problem.supports);
+  if (!setup.analysis.dynamic) {
+    mechanics::Supports all = scene.problem.supports;
+    all.springs.insert(all.springs.end(), pressing.begin(), pressing.end());
+    requireSupported(body, all);
+  }
 
   if (std::count_if(setup.loads.begin(), setup.loads.end(),
                     [](const LoadSpec& load) { return std::holds_alternative<Retractor>(load); }) > 1)
@@ -171,7 +210,8 @@ MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& se
   const bool rigid = rigidBarOf(setup).has_value();
   scene.problem.f_N = zeroField(body);
   for (const LoadSpec& load : setup.loads) {
-    scene.tractions.push_back(std::visit(LoadBuilder{body, model, scene.contact, rigid}, load));
+    scene.tractions.push_back(std::visit(LoadBuilder{body, model, scene.contact, rigid, inLargeDeformation(setup),
+                                                     setup.kinematics == Kinematics::Corotational}, load));
     const auto* weight = std::get_if<BodyForce>(&load);
     scene.loads_N.push_back(weight ? mechanics::bodyForce(body.mesh(), body.vectorToLocal(weight->N_per_m3))
                                    : nodalForces(body, scene.tractions.back()));

@@ -90,6 +90,12 @@ PolygonState readState(const std::string& text, const std::string& where) {
   throw BadInput(where + " is '" + text.substr(0, 64) + "'; it must be draft, accepted or interpolated");
 }
 
+Combine readCombine(const std::string& text, const std::string& where) {
+  if (text == "union") return Combine::Union;
+  if (text == "parity") return Combine::Parity;
+  throw BadInput(where + " is '" + text.substr(0, 64) + "'; it must be union or parity");
+}
+
 /// Parses, refusing repeated keys (JSON would silently keep the last).
 Json parse(const std::string& text, const std::string& source) {
   std::vector<std::set<std::string>> keys;
@@ -123,10 +129,12 @@ std::string toJson(const ContourStack& contours) {
     Json points = Json::array();
     for (Eigen::Index v = 0; v < polygon.points_lps_mm.cols(); ++v)
       points.push_back({polygon.points_lps_mm(0, v), polygon.points_lps_mm(1, v), polygon.points_lps_mm(2, v)});
-    polygons.push_back({{"state", name(polygon.state)},
-                        {"exclude", polygon.exclude},
-                        {"sop_instance_uid", polygon.sopInstanceUid},
-                        {"points_lps_mm", std::move(points)}});
+    Json one = {{"state", name(polygon.state)},
+                {"exclude", polygon.exclude},
+                {"sop_instance_uid", polygon.sopInstanceUid}};
+    if (polygon.combine == Combine::Parity) one["combine"] = "parity";
+    one["points_lps_mm"] = std::move(points);
+    polygons.push_back(std::move(one));
   }
   const Json all = {{"schema", schema},
                     {"name", contours.name},
@@ -151,11 +159,12 @@ ContourStack contoursFromJson(const std::string& text, const std::string& source
   if (!polygons.is_array()) throw BadInput(top.place("polygons") + " must be a list, not " + polygons.type_name());
   for (std::size_t p = 0; p < polygons.size(); ++p) {
     const std::string where = source + ", polygons[" + std::to_string(p) + "]";
-    const Reader reader(polygons[p], where, {"state", "exclude", "sop_instance_uid", "points_lps_mm"});
+    const Reader reader(polygons[p], where, {"state", "exclude", "combine", "sop_instance_uid", "points_lps_mm"});
     Polygon polygon;
     polygon.points_lps_mm = readPoints(reader.need("points_lps_mm"), reader.place("points_lps_mm"));
     polygon.exclude = reader.flag("exclude", false);
     polygon.state = readState(reader.text("state", "accepted"), reader.place("state"));
+    polygon.combine = readCombine(reader.text("combine", "union"), reader.place("combine"));
     polygon.sopInstanceUid = reader.text("sop_instance_uid", "");
     if (polygon.state != PolygonState::Draft && polygon.points_lps_mm.cols() < 3)
       throw BadInput(reader.place("points_lps_mm") + " has " + std::to_string(polygon.points_lps_mm.cols()) +

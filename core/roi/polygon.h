@@ -27,7 +27,8 @@ Polygon simplified(const Polygon& polygon, double tolerance_mm);
 
 /// Polygons whose rasterise() on mask.grid is exactly the mask: outlines and holes of every slice, vertices half-way
 /// between inside and outside voxel centres, straight runs merged. No polygon crosses itself or another one. Pixels
-/// that touch at a corner only are kept apart. Throws BadInput where the mask is empty.
+/// that touch at a corner only are kept apart. Polygons of a slice with rings so thin that they would be taken for one
+/// outline drawn twice (arrangement.h) are Combine::Parity. Throws BadInput where the mask is empty.
 ContourStack contoursOf(const image::Mask& mask);
 
 }  // namespace glisson::roi

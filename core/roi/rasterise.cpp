@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "base/error.h"
+#include "roi/arrangement.h"
 #include "roi/plane.h"
 
 // Index coordinates are rounded to 2^-20 pixel and the crossing of an edge with a row of centres is found in integers,
@@ -68,39 +69,41 @@ bool meets(const Polygon& polygon, const image::Grid& grid) {
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> polygonsPerSlice(const ContourStack& contours, const image::Grid& grid) {
-  std::vector<std::vector<std::size_t>> slices(static_cast<std::size_t>(grid.size.z()));
-  std::vector<double> position(contours.polygons.size());
-  for (std::size_t p = 0; p < contours.polygons.size(); ++p) {
-    const Polygon& polygon = contours.polygons[p];
-    if (polygon.state == PolygonState::Draft) continue;
-    position[p] = sliceOf(polygon, grid);
-    const double k = std::ceil(position[p] - 0.5 - 1e-6);  // half-way: the lower slice
-    if (k < 0.0 || k >= grid.size.z()) continue;
-    slices[static_cast<std::size_t>(k)].push_back(p);
-  }
-  for (std::size_t k = 0; k < slices.size(); ++k) {
-    std::vector<std::size_t>& members = slices[k];
-    if (members.size() < 2) continue;
-    const double centre = static_cast<double>(k);
-    const auto nearest = *std::min_element(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
-      return std::abs(position[a] - centre) < std::abs(position[b] - centre) - 1e-6;
-    });
-    std::erase_if(members, [&](std::size_t p) { return std::abs(position[p] - position[nearest]) > 0.1; });
-  }
-  return slices;
-}
-
 void fillSlice(image::Mask& mask, int k, const ContourStack& contours, const std::vector<std::size_t>& polygons) {
   const int columns = mask.grid.size.x(), rows = mask.grid.size.y();
   const std::size_t pixels = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  std::vector<std::uint8_t> inside(pixels, 0);
-  for (const std::size_t p : polygons)
-    if (!contours.polygons[p].exclude) flipInside(toFixed(contours.polygons[p], mask.grid), columns, rows, inside);
+  std::vector<std::uint8_t> inside(pixels, 0), own(pixels);
+  const auto filled = [&](std::size_t p) -> const std::vector<std::uint8_t>& {
+    std::fill(own.begin(), own.end(), std::uint8_t{0});
+    flipInside(toFixed(contours.polygons[p], mask.grid), columns, rows, own);
+    return own;
+  };
+  std::vector<std::pair<int, std::size_t>> order;  // level, polygon
+  std::vector<Eigen::Matrix2Xd> rings;
+  std::vector<bool> flips;
+  for (const std::size_t p : polygons) {
+    if (contours.polygons[p].exclude) continue;
+    order.emplace_back(0, p);
+    rings.emplace_back(mask.grid.direction.leftCols<2>().transpose() *
+                       (contours.polygons[p].points_lps_mm.colwise() - mask.grid.origin_lps_mm));
+    flips.push_back(contours.polygons[p].combine == Combine::Parity);
+  }
+  if (!order.empty()) {
+    const Arrangement arrangement = arrange(rings, flips);
+    for (std::size_t n = 0; n < order.size(); ++n) order[n].first = arrangement.level[n];
+  }
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [level, p] : order) {
+    if (level < 0) continue;
+    const std::vector<std::uint8_t>& here = filled(p);
+    for (std::size_t i = 0; i < pixels; ++i)
+      if (here[i] != 0) inside[i] = level % 2 == 0 ? 1 : 0;
+  }
+  for (const auto& [level, p] : order)
+    if (level == Arrangement::parity) flipInside(toFixed(contours.polygons[p], mask.grid), columns, rows, inside);
   for (const std::size_t p : polygons) {
     if (!contours.polygons[p].exclude) continue;
-    std::vector<std::uint8_t> out(pixels, 0);
-    flipInside(toFixed(contours.polygons[p], mask.grid), columns, rows, out);
+    const std::vector<std::uint8_t>& out = filled(p);
     for (std::size_t i = 0; i < pixels; ++i)
       if (out[i] != 0) inside[i] = 0;
   }

@@ -1,9 +1,12 @@
 #include "roi/trace.h"
 
+#include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "base/error.h"
 #include "image/morphology.h"
+#include "roi/plane.h"
 #include "roi/polygon.h"
 
 // Marching squares on the voxel centres: each cell of four centres adds a step between the mid-points of its sides that
@@ -71,6 +74,23 @@ std::vector<Point> withoutStraightRuns(const std::vector<Point>& ring) {
   return kept;
 }
 
+/// Polygons of slice k, from the first given: rings as thin as a pencil line would be taken for one outline drawn twice,
+/// so that they flip what they enclose where the slice would not come out as it was.
+void keepExact(ContourStack& contours, std::size_t first, const image::Mask& mask, int k) {
+  if (contours.polygons.size() < first + 2) return;
+  std::vector<std::size_t> here(contours.polygons.size() - first);
+  std::iota(here.begin(), here.end(), first);
+  image::Grid slice = mask.grid;
+  slice.size.z() = 1;
+  image::Mask filled(slice);
+  fillSlice(filled, 0, contours, here);
+  const auto begin = mask.values.begin() + static_cast<std::ptrdiff_t>(mask.grid.linear(0, 0, k));
+  const bool same = std::equal(filled.values.begin(), filled.values.end(), begin,
+                               [](auto a, auto b) { return (a != 0) == (b != 0); });
+  for (const std::size_t p : here)
+    if (!same) contours.polygons[p].combine = Combine::Parity;
+}
+
 }  // namespace
 
 std::vector<std::vector<HalfPoint>> ringsOf(const image::Mask& mask, int k) {
@@ -81,6 +101,7 @@ ContourStack contoursOf(const image::Mask& mask) {
   if (image::count(mask) == 0) throw BadInput("the mask is empty (no voxel inside): there is no outline to trace");
   ContourStack result;
   for (int k = 0; k < mask.grid.size.z(); ++k) {
+    const std::size_t first = result.polygons.size();
     for (const std::vector<Point>& all : ringsOf(mask, k)) {
       const std::vector<Point> ring = withoutStraightRuns(all);
       Polygon polygon;
@@ -90,6 +111,7 @@ ContourStack contoursOf(const image::Mask& mask) {
             mask.grid.indexToLps({0.5 * ring[v][0], 0.5 * ring[v][1], static_cast<double>(k)});
       result.polygons.push_back(std::move(polygon));
     }
+    keepExact(result, first, mask, k);
   }
   return result;
 }

@@ -40,11 +40,8 @@ Outcome constantMap(const Progress& progress) {
   scene.setup.loads.push_back(retraction::Traction{retraction::FaceRegion{"z-"}, {0.05, -0.02, 0.1}});
   scene.compare = pipeline::CompareSpec{};
   pipeline::Inputs inputs;
-  inputs.stiffness =
-      elastography::StiffnessMap{image::ScalarVolume(cells.grid, static_cast<float>(defaults::atlasShear.kPa())),
-                                 StiffnessQuantity::Shear,
-                                 {},
-                                 {}};
+  inputs.stiffness.emplace();
+  inputs.stiffness->values_kPa = image::ScalarVolume(cells.grid, static_cast<float>(defaults::atlasShear.kPa()));
   const pipeline::RunResult r = pipeline::run(scene, {}, progress, &inputs);
   Outcome o;
   o.add(r.primary.solver);

@@ -73,6 +73,28 @@ Problem liverWithTumour(int dofs, double poisson, double contrast) {
   return p;
 }
 
+Problem clampedBox(int cells, double poisson, double contrast) {
+  Problem p;
+  p.body.cells.setConstant(cells);
+  p.body.h_m.setConstant(0.1 / cells);
+  p.body.poisson = poisson;
+  p.body.E_Pa.assign(static_cast<std::size_t>(p.body.cells.prod()), 6e3);
+  for (int k = 0; k < cells; ++k)
+    for (int j = 0; j < cells; ++j)
+      for (int i = 0; i < cells; ++i)
+        if ((Vector3d(i + 0.5, j + 0.5, k + 0.5) / cells - Vector3d(0.42, 0.55, 0.5)).norm() < 0.25)
+          p.body.E_Pa[p.body.cell(i, j, k)] *= contrast;
+  const VoxelMesh mesh(p.body);
+  std::vector<Face> below, above;
+  for (const Face& face : exteriorFaces(mesh)) {
+    if (face.side == 4) below.push_back(face);
+    if (face.side == 5) above.push_back(face);
+  }
+  p.supports.fixations = fix(nodesOfFaces(mesh, below));
+  p.f_N = tractionForce(mesh, above, Vector3d(100, 50, 30));
+  return p;
+}
+
 std::vector<NodalField> contacts(const Problem& problem, int count) {
   const VoxelMesh mesh(problem.body);
   std::vector<Face> front;

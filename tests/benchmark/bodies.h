@@ -15,6 +15,10 @@ Problem liver(int dofs, double poisson, double slice_m = 0.0);
 /// The same with a stiff ball of `contrast` times the modulus inside.
 Problem liverWithTumour(int dofs, double poisson, double contrast);
 
+/// A cube of 0.1 m and cells³ cells of 6 kPa, a ball of `contrast` times that inside, clamped below, pulled and sheared
+/// above.
+Problem clampedBox(int cells, double poisson, double contrast);
+
 /// `count` tool contacts on the front surface, 1 N each.
 std::vector<NodalField> contacts(const Problem& problem, int count);
 

@@ -73,6 +73,27 @@ void tumour(benchmark::State& state) {
           method);
 }
 
+/// Multigrid on clamped boxes: edges in cells, Poisson's ratio in ten thousandths, element, contrast of a ball inside.
+void sweep(benchmark::State& state) {
+  const Problem p = clampedBox(static_cast<int>(state.range(0)), 1e-4 * static_cast<double>(state.range(1)),
+                               static_cast<double>(state.range(3)));
+  SolverOptions o = optionsOf(Multigrid);
+  o.element = state.range(2) == 0 ? HexElement::Incompatible : state.range(2) == 1 ? HexElement::BBar : HexElement::H8;
+  SolveReport report;
+  for (auto _ : state) report = solveStatic(p, o).report;
+  state.SetLabel(report.converged() ? "converged" : "NOT CONVERGED");
+  state.counters["iterations"] = report.iterations;
+  state.counters["residual"] = report.residual;
+}
+BENCHMARK(sweep)
+    ->ArgNames({"cells", "nu_10000", "element", "contrast"})
+    ->ArgsProduct({{16, 32, 48, 64, 72, 76, 96, 128},
+                   {0, 3000, 3500, 4000, 4300, 4500, 4900, 4950, 4990, 4999},
+                   {0, 1, 2},
+                   {1, 10, 1000, 1000000}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
+
 void named(benchmark::internal::Benchmark* b, int largest) {
   b->ArgNames({"dofs", "nu_1000"})->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(1);
   for (const int dofs : {1000, 3000, 6000, 10000, 30000, 45000, 100000, 300000, 1080000})

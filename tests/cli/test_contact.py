@@ -6,7 +6,7 @@ import unittest
 
 from support import cli, cli_json, write_scene
 
-BAR = {"kind": "retractor", "at": [80, 60, 50], "force": 4.6, "contact": "rigid"}
+BAR = {"kind": "retractor", "at": [80, 60, 50], "force": 4.6}
 BLOCK = {"geometry": {"kind": "box", "size_mm": [160, 60, 100], "cell_mm": 4},
          "material": {"youngs_kPa": 6.09, "poisson": 0.45},
          "supports": [{"region": {"face": "y-"}, "kind": "fixed"}],
@@ -16,8 +16,7 @@ BLOCK = {"geometry": {"kind": "box", "size_mm": [160, 60, 100], "cell_mm": 4},
 SHELF = {"geometry": {"kind": "box", "size_mm": [60, 10, 40], "cell_mm": 2.5},
          "material": {"youngs_kPa": 10, "poisson": 0.4},
          "supports": [{"region": {"face": "x-"}, "kind": "fixed"}],
-         "loads": [{"kind": "retractor", "at": [52, 10, 20], "axis": [0, 0, 1], "length_mm": 60, "force": 20,
-                    "contact": "rigid"}]}
+         "loads": [{"kind": "retractor", "at": [52, 10, 20], "axis": [0, 0, 1], "length_mm": 60, "force": 20}]}
 
 
 class Contact(unittest.TestCase):
@@ -29,7 +28,7 @@ class Contact(unittest.TestCase):
     def run_scene(self, scene, *arguments, code=0):
         return cli_json("run", write_scene(self.folder, scene), "--output", self.folder / "out", *arguments, code=code)
 
-    def test_a_rigid_bar_dents_a_block_as_calculix_says(self):
+    def test_a_rigid_bar_is_the_default_and_dents_a_block_as_calculix_says(self):
         r = self.run_scene(BLOCK)
         self.assertEqual(r["kinematics"]["asked"], "auto")
         self.assertEqual(r["kinematics"]["used"], "hyperelastic")
@@ -78,15 +77,13 @@ class Contact(unittest.TestCase):
             if d["severity"] != "note":
                 self.assertIn(d["text"], r["warnings"])
 
-    def test_without_a_word_the_retractor_is_a_patch(self):
-        bar = {k: v for k, v in BAR.items() if k != "contact"}
-        for load in (bar, {**bar, "contact": "patch"}):
-            patch = self.run_scene({**BLOCK, "loads": [load]})
-            self.assertNotIn("contact", patch)
-            self.assertEqual(patch["kinematics"]["used"], "linear")
-            self.assertGreater(patch["contact_area_mm2"], 0)
-
-    def test_what_does_not_offer_a_rigid_bar_says_so(self):
+    def test_a_patch_is_still_there_where_it_is_asked_for_or_alone_is_offered(self):
+        patch = self.run_scene({**BLOCK, "loads": [{**BAR, "contact": "patch"}], "kinematics": "linear"})
+        self.assertNotIn("contact", patch)
+        self.assertGreater(patch["contact_area_mm2"], 0)
+        frames = self.run_scene({**BLOCK, "geometry": {**BLOCK["geometry"], "cell_mm": 10},
+                                 "model": {"kind": "meshfree", "frames": 40}})
+        self.assertNotIn("contact", frames)
         process = cli("run", write_scene(self.folder, {**BLOCK, "loads": [{**BAR, "contact": "rigid"}],
                                                        "model": {"kind": "meshfree", "frames": 40}}),
                       "--output", self.folder / "out", "--quiet", code=3)
@@ -99,6 +96,45 @@ class Contact(unittest.TestCase):
                      {**BAR, "at": [80, 60, 400]}):
             cli("run", write_scene(self.folder, {**BLOCK, "loads": [load]}), "--output", self.folder / "out", "--quiet",
                 code=3)
+
+    def test_a_bed_that_only_presses_lets_go(self):
+        beam = {"geometry": {"kind": "box", "size_mm": [60, 10, 10], "cell_mm": 2.5},
+                "material": {"youngs_kPa": 20, "poisson": 0.3}, "kinematics": "hyperelastic",
+                "outputs": [{"probe": [[60, 5, 5]]}]}
+        clamp = {"region": {"face": "x-"}, "kind": "fixed"}
+        bed = {"region": {"face": "z-"}, "kind": "spring", "stiffness_kPa_per_mm": 0.2, "unilateral": True}
+
+        def tip(up, *supports):
+            load = {"kind": "traction", "region": {"face": "z+"}, "kPa": [0, 0, up]}
+            r = self.run_scene({**beam, "supports": list(supports), "loads": [load]})
+            return r["probes"][0]["u_mm"][2]
+
+        free_up, free_down = tip(0.002, clamp), tip(-0.002, clamp)
+        self.assertAlmostEqual(tip(0.002, clamp, bed), free_up, delta=0.02 * free_up)
+        self.assertLess(abs(tip(-0.002, clamp, bed)), 0.3 * abs(free_down))
+        process = cli("run", write_scene(self.folder, {**beam, "kinematics": "linear", "supports": [clamp, bed],
+                                                       "loads": [{"kind": "body_force", "N_per_m3": [0, 0, -10]}]}),
+                      "--output", self.folder / "out", "--quiet", code=3)
+        self.assertIn("unilateral", process.stderr)
+
+    def test_a_pressure_that_follows_turns_with_its_face(self):
+        # A soft strip, pressed sideways on one face: a dead pressure bends it further than one that turns with it.
+        strip = {"geometry": {"kind": "box", "size_mm": [60, 6, 6], "cell_mm": 2},
+                 "material": {"youngs_kPa": 20, "poisson": 0.3}, "kinematics": "hyperelastic",
+                 "supports": [{"region": {"face": "x-"}, "kind": "fixed"}], "outputs": [{"probe": [[60, 3, 3]]}]}
+
+        def tip(kPa, follows):
+            load = {"kind": "pressure", "region": {"face": "z+"}, "kPa": kPa, "follows": follows}
+            r = self.run_scene({**strip, "loads": [load]})
+            self.assertTrue(r["solver"]["converged"])
+            return r["probes"][0]["u_mm"]
+
+        small = [tip(2e-5, follows)[2] for follows in (False, True)]
+        self.assertAlmostEqual(small[0], small[1], delta=0.01 * abs(small[0]))
+        dead, following = tip(0.004, False), tip(0.004, True)
+        self.assertLess(dead[2], 0)
+        # What turns with the strip pulls its end back as it bends: the tip goes further along x.
+        self.assertLess(following[0], dead[0])
 
 
 if __name__ == "__main__":

@@ -43,6 +43,26 @@ class Contract(unittest.TestCase):
             self.assertIn(key, r["model"])
         self.assertAlmostEqual(r["model"]["volume_mL"], 5.0, places=9)
 
+    def test_linear_answers_say_in_mm_what_linear_theory_misses(self):
+        load = {"kind": "traction", "region": {"face": "x+"}, "kPa": [0, 0, -0.002]}
+        small = self.run_scene({**BEAM, "loads": [load]})
+        gap = small["linear_gap_mm"]
+        self.assertTrue(gap["known"] and gap["stable"])
+        self.assertLess(gap["mean"], gap["max"])
+        self.assertLess(gap["max"], 0.2)
+        self.assertTrue(small["kinematics_valid"])
+        large = self.run_scene({**BEAM, "loads": [{**load, "kPa": [0, 0, -0.02]}]})
+        self.assertAlmostEqual(large["linear_gap_mm"]["max"] / gap["max"], 100, delta=40)
+        self.assertGreater(large["linear_gap_mm"]["max"], 0.2)
+        self.assertFalse(large["kinematics_valid"])
+        self.assertTrue(any("linear theory misses" in line for line in large["validity"]), large["validity"])
+
+    def test_bars_that_no_instrument_is_are_refused(self):
+        bar = {"kind": "retractor", "at": [40, 10, 5]}
+        self.refused({**BEAM, "loads": [{**bar, "force": -10}]}, "force", "direction")
+        self.refused({**BEAM, "loads": [{**bar, "length_mm": 500}]}, "length_mm", "300")
+        self.refused({**BEAM, "loads": [{**bar, "diameter_mm": 0.1}]}, "diameter_mm", "between 1 and 100")
+
     def test_hanging_bar(self):
         r = self.run_scene({**BEAM, "material": {"youngs_kPa": 12, "poisson": 0.0},
                             "loads": [{"kind": "body_force", "N_per_m3": [1060 * 9.81, 0, 0]}]})

@@ -73,6 +73,16 @@ class Journey(unittest.TestCase):
                 twin = self.folder / "again/patient-001" / path.relative_to(self.patient)
                 self.assertEqual(path.read_bytes(), twin.read_bytes(), path.name)
 
+    def test_an_odd_shape_is_named_and_the_usual_is_what_none_gives(self):
+        cli("phantom", "--cases", 1, "--seed", 5, "--shape", "riedel", "--output", self.folder / "riedel", "--quiet")
+        truth = json.loads((self.folder / "riedel/patient-001/truth.json").read_text())
+        self.assertEqual(truth["shape"], "riedel")
+        self.assertEqual(truth["seed"], self.truth["seed"])
+        self.assertGreater(truth["volume_mL"], self.truth["volume_mL"])
+        self.assertNotIn("shape", self.truth)
+        refused = cli("phantom", "--shape", "round", "--output", self.folder / "round", code=2)
+        self.assertIn("riedel", refused.stderr)
+
     def test_no_word_of_the_patient_comes_out(self):
         try:
             subprocess.run([sys.executable, "-c", "import pydicom"], check=True, capture_output=True)

@@ -287,8 +287,7 @@ class Gestures : public QObject, private glisson::test::WindowBench {
     mouse(mri(), QEvent::MouseButtonRelease, middle, Qt::LeftButton, Qt::NoButton);
     const auto r = stalls.report();
     qInfo("while dragging: p99 %.1f ms, longest %.1f ms, %zu looks", r.p99_ms, r.max_ms, r.looks);
-    QVERIFY2(r.p99_ms <= 50.0, qPrintable(QString::number(r.p99_ms)));
-    QVERIFY2(r.max_ms <= 100.0, qPrintable(QString::number(r.max_ms)));
+    glisson::test::judge(r);
   }
 
   void aCaseComesBackAsItWasSaved() {

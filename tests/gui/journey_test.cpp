@@ -50,7 +50,6 @@ class Journey : public QObject, private glisson::test::WindowBench {
 
   void opensTheSyntheticPatientFromDicom() {
     QSignalSpy loaded(&session(), &Session::loaded);
-    const bool busyBefore = glisson::test::busyMachine();
     StallMonitor stalls;
     session().openSynthetic(3, QString::fromStdString(folder().string()));
     QCOMPARE(session().status(Step::Load).state, StepState::Running);
@@ -62,7 +61,7 @@ class Journey : public QObject, private glisson::test::WindowBench {
     QCOMPARE(window().step(), Step::Segment);
     QVERIFY(find<QTableWidget>("seriesTable")->rowCount() >= 5);
     qInfo("longest time without an answer while opening: %.0f ms", stalls.report().max_ms);
-    glisson::test::judge(stalls.report(), busyBefore);
+    glisson::test::judge(stalls.report());
   }
 
   void showsNoPatientText() {
@@ -168,14 +167,13 @@ class Journey : public QObject, private glisson::test::WindowBench {
     // Before a run the bar can be laid at once, and there is nothing to play.
     QVERIFY(find<QWidget>("addHold")->isVisible() && find<QWidget>("automaticBar")->isVisible());
     QVERIFY(!find<QWidget>("playButton")->isVisible() && !find<QWidget>("movedButton")->isEnabled());
-    const bool busyBefore = glisson::test::busyMachine();
     StallMonitor stalls;
     click("runButton");
     QVERIFY(ended.wait(wait_ms));
     QVERIFY2(finished.count() == 1, qPrintable(session().status(Step::Retract).detail));
     QVERIFY(drawn.count() > 0 || drawn.wait(wait_ms));
     qInfo("longest time without an answer while running: %.0f ms", stalls.report().max_ms);
-    glisson::test::judge(stalls.report(), busyBefore);
+    glisson::test::judge(stalls.report());
     QCOMPARE(window().step(), Step::Compare);
     QCOMPARE(session().status(Step::Compare).state, StepState::Done);
     const QImage overlay = find<PictureView>("overlayView")->picture();
@@ -288,12 +286,11 @@ class Journey : public QObject, private glisson::test::WindowBench {
     QVERIFY(stopped.count() > 0 || stopped.wait(wait_ms));
     QVERIFY2(stopped.front().front().toString().isEmpty(), qPrintable(stopped.front().front().toString()));
     QVERIFY(!chart->isReady());
-    const bool busyBefore = glisson::test::busyMachine();
     StallMonitor stalls;
     click("methodStart");
     QVERIFY(ready.wait(wait_ms));
     qInfo("longest time without an answer while methods are measured: %.0f ms", stalls.report().max_ms);
-    glisson::test::judge(stalls.report(), busyBefore);
+    glisson::test::judge(stalls.report());
     QVERIFY(find<PictureView>("methodPicture")->hasPicture());
     auto* rows = find<QTreeWidget>("methodRows");
     QVERIFY(rows->topLevelItemCount() > 10);

@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/map_unit.h"
+#include "dicom/acquisitions.h"
 #include "pipeline/sources.h"
 #include "session/session.h"
 
@@ -29,20 +31,34 @@ std::filesystem::path commonFolder(const dicom::Series& series) {
   return common;
 }
 
-/// Whether a reader of this folder alone would take the series by its role.
-bool findsIt(const dicom::ScanResult& guessed, const std::filesystem::path& folder, dicom::SeriesRole role,
-             const std::string& uid) {
+/// What a reader of this folder alone would find.
+dicom::ScanResult below(const dicom::ScanResult& guessed, const std::filesystem::path& folder) {
   dicom::ScanResult there;
   for (const dicom::Series& s : guessed.series)
     if (!s.files.empty() && below(s.files.front(), folder)) there.series.push_back(s);
+  return there;
+}
+
+/// Whether a reader of this folder alone would take the series by its role.
+bool findsIt(const dicom::ScanResult& guessed, const std::filesystem::path& folder, dicom::SeriesRole role,
+             const std::string& uid) {
+  const dicom::ScanResult there = below(guessed, folder);
   const int found = indexOf(there, role);
   return found >= 0 && there.series[static_cast<std::size_t>(found)].uid == uid;
 }
 
+/// Whether a reader of this folder alone would take the confidence (empty: none) with the stiffness that it takes.
+bool findsConfidence(const dicom::ScanResult& guessed, const std::filesystem::path& folder, const std::string& uid) {
+  const dicom::ScanResult there = below(guessed, folder);
+  const int stiffness = indexOf(there, dicom::SeriesRole::Stiffness);
+  if (stiffness < 0) return false;
+  const int found = dicom::partnersOf(there, stiffness).confidence;
+  return (found < 0 ? std::string() : there.series[static_cast<std::size_t>(found)].uid) == uid;
+}
+
 /// Time steps of the wave: the volumes that follow each other in one series.
-std::vector<std::shared_ptr<const image::ScalarVolume>> readWave(const dicom::ScanResult& scan,
+std::vector<std::shared_ptr<const image::ScalarVolume>> readWave(const dicom::ScanResult& scan, int first,
                                                                  const Progress& progress) {
-  const int first = indexOf(scan, dicom::SeriesRole::Wave);
   if (first < 0) return {};
   const auto stem = [](const std::string& uid) { return uid.substr(0, uid.find('#')); };
   const std::string uid = stem(scan.series[static_cast<std::size_t>(first)].uid);
@@ -88,7 +104,7 @@ std::optional<Question> questionAbout(const dicom::Series& mri, const dicom::Ser
                                                     "patient may have moved between them."));
     if (!words.isEmpty()) return Question{Question::Kind::Together, words.join(QLatin1Char(' '))};
   }
-  if (!choices.unit && !mre.unit)
+  if (!choices.unit && !(mre.unit && mapUnit(*mre.unit)))
     return Question{Question::Kind::Meaning,
                     Session::tr("Series %1 does not say what it holds, nor in which unit.").arg(mre.number)};
   return std::nullopt;
@@ -104,7 +120,10 @@ OpenImages readImages(const dicom::ScanResult& scan, const dicom::ScanResult& gu
   images.mriSeries = indexOf(scan, dicom::SeriesRole::Anatomical);
   if (images.mriSeries < 0) images.mriSeries = indexOf(scan, dicom::SeriesRole::Magnitude);
   images.stiffnessSeries = indexOf(scan, dicom::SeriesRole::Stiffness);
-  images.confidenceSeries = indexOf(scan, dicom::SeriesRole::Confidence);
+  // What belongs to the stiffness that is shown, never the first of its kind.
+  dicom::Acquisition acquisition;
+  if (images.stiffnessSeries >= 0) acquisition = dicom::partnersOf(scan, images.stiffnessSeries);
+  images.confidenceSeries = acquisition.confidence;
   if (images.mriSeries < 0)
     throw BadInput(Session::tr("no anatomical or magnitude MR series was found; give a series that role in the table")
                        .toStdString());
@@ -121,11 +140,15 @@ OpenImages readImages(const dicom::ScanResult& scan, const dicom::ScanResult& gu
   };
   // What is shown beside the maps that count: where it cannot be read, the rest still can.
   try {
-    const int magnitude = indexOf(scan, dicom::SeriesRole::Magnitude);
+    const bool alone = images.stiffnessSeries < 0;
+    const int magnitude = alone ? indexOf(scan, dicom::SeriesRole::Magnitude) : acquisition.magnitude;
     if (magnitude >= 0 && magnitude != images.mriSeries)
       images.magnitude =
           std::make_shared<image::ScalarVolume>(dicom::readSeries(series(magnitude), progress.part(0.5, 0.55)));
-    images.wave = readWave(scan, progress.part(0.55, 0.6));
+    const int wave = alone                      ? indexOf(scan, dicom::SeriesRole::Wave)
+                     : acquisition.wave.empty() ? -1
+                                                : acquisition.wave.front();
+    images.wave = readWave(scan, wave, progress.part(0.55, 0.6));
   } catch (const BadInput& e) {
     images.note = QString::fromUtf8(e.what());
   }
@@ -142,9 +165,11 @@ OpenImages readImages(const dicom::ScanResult& scan, const dicom::ScanResult& gu
   images.question = questionAbout(series(images.mriSeries), stiffness, choices);
   if (images.question) return images;
   progress.report(0.6, "reading elastogram");
-  elastography::StiffnessMap map = elastography::makeStiffnessMap(
-      dicom::readSeries(stiffness, progress.part(0.6, 0.85)), choices.quantity.value_or(StiffnessQuantity::Shear),
-      choices.unit ? *choices.unit : *stiffness.unit);
+  Diagnostics said = acquisition.diagnostics;
+  pipeline::MapMeaning meaning;
+  meaning.quantity = choices.quantity;
+  meaning.unit = choices.unit;
+  elastography::StiffnessMap map = pipeline::readStiffness(stiffness, meaning, said, progress.part(0.6, 0.85));
   if (map.quantity == StiffnessQuantity::Youngs) {
     // Everything in the window is a shear modulus; a run takes the map as it is, with the Poisson's ratio of its model.
     map = elastography::toQuantity(map, StiffnessQuantity::Shear, defaults::poisson);
@@ -153,17 +178,18 @@ OpenImages readImages(const dicom::ScanResult& scan, const dicom::ScanResult& gu
             .arg(defaults::poisson) +
         QLatin1Char(' ');
   }
-  map.frameOfReferenceUid = stiffness.frameOfReferenceUid;
   if (images.confidenceSeries >= 0)
-    elastography::attachConfidence(map, dicom::readSeries(series(images.confidenceSeries), progress.part(0.85, 1.0)));
+    pipeline::readConfidence(series(images.confidenceSeries), {}, map, said, progress.part(0.85, 1.0));
   else
     images.note += Session::tr("No confidence map was found: every voxel with a stiffness counts.");
+  for (const std::string& text : said.texts(Severity::Warning))
+    images.note += QLatin1Char(' ') + QString::fromStdString(text) + QLatin1Char('.');
   if (!roles.empty()) images.mreSource = root;
   if (images.mreSource.empty())
     images.mreSource = outwards(commonFolder(stiffness), [&](const std::filesystem::path& folder) {
       return findsIt(guessed, folder, dicom::SeriesRole::Stiffness, stiffness.uid) &&
-             (images.confidenceSeries < 0 ||
-              findsIt(guessed, folder, dicom::SeriesRole::Confidence, series(images.confidenceSeries).uid));
+             findsConfidence(guessed, folder,
+                             images.confidenceSeries < 0 ? std::string() : series(images.confidenceSeries).uid);
     });
   images.stiffness = std::make_shared<elastography::StiffnessMap>(std::move(map));
   return images;

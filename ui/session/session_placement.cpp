@@ -14,7 +14,8 @@ void apply(const Placement& placement, retraction::Setup& setup) {
   for (retraction::LoadSpec& load : setup.loads)
     if (auto* bar = std::get_if<retraction::Retractor>(&load)) {
       bar->at_mm = placement.barAt_lps;
-      bar->axis = placement.barAxis;
+      // Where nothing was laid, geometry says how the bar lies.
+      if (placement.barAt_lps || placement.barAxis != Placement{}.barAxis) bar->axis = placement.barAxis;
       bar->direction = placement.hoistDirection;
     }
   for (const Placement::Hold& hold : placement.holds) {

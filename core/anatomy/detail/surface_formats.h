@@ -14,6 +14,9 @@ namespace glisson::anatomy::detail {
 SurfaceFile readObj(const std::filesystem::path& path);
 SurfaceFile readStl(const std::filesystem::path& path);   ///< ASCII or binary
 SurfaceFile readGmsh(const std::filesystem::path& path);  ///< versions 1 and 2, ASCII
+/// Throws BadInput where a legacy VTK file announces more than it can hold, or is no surface or volume mesh.
+void checkLegacyVtk(const std::filesystem::path& path);
+
 SurfaceFile readVtk(const std::filesystem::path& path, bool xml, bool volume);
 
 }  // namespace glisson::anatomy::detail

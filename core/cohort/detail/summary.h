@@ -54,7 +54,8 @@ void studyChosen(Summary& summary, const std::map<std::string, std::string>& sce
 std::vector<std::filesystem::path> writeSummary(const Summary& summary, const CohortOptions& options,
                                                 std::string& json);
 
-/// A command's last message without the program's name, the patient's folder and its name.
+/// A command's last message without the program's name, the patient's folder and its name, and without names in
+/// quotation marks: of files, structures, segments and series, which are often made of the patient's.
 std::string anonymous(std::string message, const std::filesystem::path& folder, const std::string& id);
 
 }  // namespace glisson::cohort::detail

@@ -33,6 +33,10 @@ std::string unifiedText(DcmItem& item, const DcmTagKey& tag);
 /// UTF-8 without control characters (bytes that are no UTF-8 are taken as Latin-1), at most 64 bytes.
 std::string cleaned(const std::string& raw);
 
+/// As text(), of a private attribute: in the block that its creator reserved in this file, which may be any. Where no
+/// creator says whose the first block is (some software leaves it out), that one. Empty where there is none.
+std::string privateText(DcmItem& item, std::uint16_t group, std::uint8_t element, const char* creator);
+
 /// The numbers of a decimal string, an integer string or a binary attribute; empty where absent. Throws BadInput,
 /// naming the attribute and the value, where one is no finite number.
 std::vector<double> numbers(DcmItem& item, const DcmTagKey& tag);

@@ -22,18 +22,38 @@ void exchange(Wire& w, Frame& f) {
   w(f.thickness_mm);
   w(f.statedSpacing_mm);
   exchange(w, f.rescale);
+  w(f.map);
+  w(f.scaleDoubt);
+  w(f.unit);
+  w(f.quantity);
   w(f.kinds);
 }
 
 template <typename Wire>
-void exchangeFrames(Wire& w, std::vector<Frame>& frames) {
-  auto count = static_cast<std::uint32_t>(frames.size());
+void exchange(Wire& w, ValueSegment& s) {
+  w(s.first);
+  w(s.last);
+  exchange(w, s.line);
+  w(s.table);
+}
+
+template <typename Wire>
+void exchange(Wire& w, ValueMap& map);
+
+template <typename Wire, typename Item>
+void exchangeAll(Wire& w, std::vector<Item>& items) {
+  auto count = static_cast<std::uint32_t>(items.size());
   w(count);
-  if constexpr (!Wire::writes) frames.clear();
+  if constexpr (!Wire::writes) items.clear();
   for (std::uint32_t n = 0; n < count; ++n) {
-    if constexpr (!Wire::writes) frames.emplace_back();
-    exchange(w, frames[n]);
+    if constexpr (!Wire::writes) items.emplace_back();
+    exchange(w, items[n]);
   }
+}
+
+template <typename Wire>
+void exchange(Wire& w, ValueMap& map) {
+  exchangeAll(w, map);
 }
 
 template <typename Wire>
@@ -41,8 +61,14 @@ void exchange(Wire& w, ImageHeader& h) {
   w(h.layout.transferSyntax);
   for (std::string* text :
        {&h.seriesUid, &h.studyUid, &h.frameOfReferenceUid, &h.sopInstanceUid, &h.sopClassUid, &h.patientKey,
-        &h.studyDate, &h.modality, &h.description, &h.imageType, &h.manufacturer, &h.sequenceName, &h.unit})
+        &h.studyDate, &h.modality, &h.description, &h.imageType, &h.manufacturer, &h.sequenceName, &h.acquisitionUid})
     w(*text);
+  w(h.acquisitionNumber);
+  w(h.acquisition_s);
+  w(h.references);
+  exchangeAll(w, h.maps);
+  w(h.padding);
+  w(h.privateScale);
   w(h.seriesNumber);
   w(h.instanceNumber);
   w(h.rows);
@@ -62,7 +88,12 @@ void exchange(Wire& w, ImageHeader& h) {
   w(h.step.time);
   w(h.step.frequency);
   w(h.step.vibration_Hz);
-  exchangeFrames(w, h.frames);
+  w(h.announced.images);
+  w(h.announced.slices);
+  w(h.announced.concatenationUid);
+  w(h.announced.part);
+  w(h.announced.parts);
+  exchangeAll(w, h.frames);
   w(h.warnings);
 }
 
@@ -94,10 +125,16 @@ void check(const ImageHeader& h, std::uint64_t fileBytes) {
         t.columns > h.columns / t.perRow || h.frames.size() > most)
       WireReader::fail();
   }
+  for (const ValueMap& map : h.maps)
+    for (const ValueSegment& segment : map)
+      if (map.empty() ||
+          (!segment.table.empty() && segment.last - segment.first + 1.0 != static_cast<double>(segment.table.size())))
+        WireReader::fail();
   for (std::size_t n = 0; n < h.frames.size(); ++n) {
     const Frame& f = h.frames[n];
     if (f.number != static_cast<int>(n) || !isUnit(f.row) || !isUnit(f.column) || f.rowSpacing_mm <= 0.0 ||
-        f.columnSpacing_mm <= 0.0)
+        f.columnSpacing_mm <= 0.0 || f.map < -1 || f.map >= static_cast<int>(h.maps.size()) ||
+        f.scaleDoubt > ScaleDoubt::MapsDisagree || f.quantity.value_or(MapQuantity::Other) > MapQuantity::Other)
       WireReader::fail();
   }
 }
@@ -124,9 +161,12 @@ ImageHeader headerFrom(const std::string& message, std::uint64_t fileBytes) {
   w.end();
   check(h, fileBytes);
   for (std::string* text : {&h.layout.transferSyntax, &h.studyUid, &h.frameOfReferenceUid, &h.sopClassUid, &h.modality,
-                            &h.description, &h.imageType, &h.manufacturer, &h.sequenceName, &h.unit})
+                            &h.description, &h.imageType, &h.manufacturer, &h.sequenceName, &h.acquisitionUid})
     *text = shownFrom(std::move(*text));
-  for (std::string& warning : h.warnings) warning = shownFrom(std::move(warning));
+  h.announced.concatenationUid = shownFrom(std::move(h.announced.concatenationUid));
+  for (std::vector<std::string>* texts : {&h.warnings, &h.references})
+    for (std::string& text : *texts) text = shownFrom(std::move(text));
+  for (Frame& f : h.frames) f.unit = shownFrom(std::move(f.unit));
   return h;
 }
 

@@ -36,6 +36,7 @@ void exchange(Wire& w, StructureContour& c) {
   std::vector<double> xyz(c.points_lps_mm.data(), c.points_lps_mm.data() + c.points_lps_mm.size());
   w(xyz);
   w(c.referencedSopInstanceUid);
+  w(c.exclusiveOr);
   if constexpr (!Wire::writes) {
     if (xyz.size() % 3 != 0) WireReader::fail();
     c.points_lps_mm = Eigen::Map<const Eigen::Matrix3Xd>(xyz.data(), 3, static_cast<Eigen::Index>(xyz.size() / 3));
@@ -49,10 +50,15 @@ void exchange(Wire& w, StructureSet& set) {
   exchange(w, set.origin);
   w(set.frameOfReferenceUid);
   w(set.referencedSeriesUid);
+  exchangeList(w, set.references, any, [&](ReferencedSeries& r) {
+    w(r.frameOfReferenceUid);
+    w(r.seriesUid);
+  });
   w(set.warnings);
   exchangeList(w, set.structures, any, [&](Structure& s) {
     w(s.number);
     w(s.name);
+    w(s.frameOfReferenceUid);
     exchangeList(w, s.contours, any, [&](StructureContour& c) { exchange(w, c); });
   });
 }
@@ -73,6 +79,7 @@ void exchange(Wire& w, SegHeader& h) {
   w(h.columns);
   w(h.bits);
   w(h.fractional);
+  w(h.labelMap);
   w(h.maximum);
   w(h.row);
   w(h.column);
@@ -83,6 +90,7 @@ void exchange(Wire& w, SegHeader& h) {
   exchangeList(w, h.frames, maxSegFrames, [&](SegFrame& f) {
     w(f.position_lps_mm);
     w(f.segment);
+    w(f.sourceSopInstanceUid);
   });
 }
 
@@ -130,9 +138,14 @@ StructureSet structuresFrom(const std::string& message) {
   check(set.origin);
   clean(set.frameOfReferenceUid);
   clean(set.referencedSeriesUid);
+  for (ReferencedSeries& r : set.references) {
+    clean(r.frameOfReferenceUid);
+    clean(r.seriesUid);
+  }
   cleanAll(set.warnings);
   for (Structure& s : set.structures) {
     clean(s.name);
+    clean(s.frameOfReferenceUid);
     for (StructureContour& c : s.contours) {
       clean(c.referencedSopInstanceUid);
       if (c.points_lps_mm.cols() < 3 || c.points_lps_mm.cwiseAbs().maxCoeff() > farthest_mm) WireReader::fail();
@@ -154,12 +167,14 @@ SegHeader segHeaderFrom(const std::string& message) {
   }
   const auto isUnit = [](const Eigen::Vector3d& v) { return std::abs(v.norm() - 1.0) < 1e-3; };
   bool sound = h.rows > 0 && h.rows <= 65535 && h.columns > 0 && h.columns <= 65535;
-  sound = sound && (h.fractional ? h.bits == 8 : h.bits == 1) && h.maximum > 0 && h.maximum <= 255;
+  sound = sound && (h.labelMap ? h.bits == 8 || h.bits == 16 : h.bits == (h.fractional ? 8 : 1)) && h.maximum > 0 && h.maximum <= 255;
   sound = sound && isUnit(h.row) && isUnit(h.column) && std::abs(h.row.dot(h.column)) < 1e-6;
   sound = sound && h.rowSpacing_mm > 0.0 && h.columnSpacing_mm > 0.0 && !h.frames.empty();
   if (!sound) WireReader::fail();
-  for (const SegFrame& f : h.frames)
+  for (SegFrame& f : h.frames) {
+    clean(f.sourceSopInstanceUid);
     if (f.position_lps_mm.cwiseAbs().maxCoeff() > farthest_mm) WireReader::fail();
+  }
   return h;
 }
 

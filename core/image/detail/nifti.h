@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "image/grid.h"
 
 namespace glisson::image::detail {
@@ -13,6 +14,7 @@ struct NiftiFile {
   int datatype = 0;         ///< NIfTI-1 code
   std::vector<char> bytes;  ///< as stored, in the order of this machine
   double slope = 1.0, intercept = 0.0;
+  Diagnostics doubts;  ///< no form at all; forms that place the volume apart; steps that differ
 };
 
 /// Read here and not by ITK 5.2, which for good files of scanners takes the spacing of pixdim against that of the

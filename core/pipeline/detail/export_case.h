@@ -40,10 +40,11 @@ class ExportCase {
   void warn(const std::string& text);
   Exported& exported() { return exported_; }
 
+  const LoadedRoi& roi();  ///< the region of interest, read once
+
  private:
   const dicom::Series& series(const std::filesystem::path& path, dicom::SeriesRole role, const char* what,
                               std::optional<dicom::Series>& kept);
-  const LoadedRoi& roi();
 
   ExportRequest request_;
   Progress progress_;

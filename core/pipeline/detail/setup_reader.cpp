@@ -1,6 +1,7 @@
 #include "pipeline/detail/setup_reader.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "base/error.h"
 
@@ -10,6 +11,22 @@ double positive(JsonObject& o, const std::string& key, double value) {
   if (!(value > 0.0)) o.fail(key, "is " + std::to_string(value) + "; it must be greater than 0");
   return value;
 }
+
+namespace {
+
+/// The value, if it lies in the range.
+double within(JsonObject& o, const std::string& key, double value, const retraction::Retractor::Range& range,
+              const char* unit) {
+  if (!(value >= range.least && value <= range.most)) {
+    std::ostringstream text;
+    text << "is " << value << " " << unit << "; it must lie between " << range.least << " and " << range.most << " "
+         << unit;
+    o.fail(key, text.str());
+  }
+  return value;
+}
+
+}  // namespace
 
 std::filesystem::path existing(JsonObject& o, const std::string& key, const std::filesystem::path& folder) {
   const std::filesystem::path p = o.text(key);
@@ -73,6 +90,7 @@ std::optional<double> forceOf(JsonObject& o) {
     const double force_N = o.number("force");
     if (force_N < 0.0)
       o.fail("force", "must not be negative: give its size, and turn \"direction\" where the bar pulls the other way");
+    within(o, "force", force_N, retraction::Retractor::forces_N, "N");
     return force_N;
   }
   o.word("force", {"liver-weight"});
@@ -102,6 +120,7 @@ retraction::SupportSpec readSupport(JsonObject o, const std::filesystem::path& f
     s.kind = retraction::SupportSpec::Kind::Spring;
     s.stiffness_kPa_per_mm = o.number("stiffness_kPa_per_mm");
     if (s.stiffness_kPa_per_mm < 0) o.fail("stiffness_kPa_per_mm", "must not be negative");
+    s.unilateral = o.boolean("unilateral", false);
     s.normalOnly = o.word("direction", {"isotropic", "normal"}, "isotropic") == "normal";
   }
   o.finish();
@@ -114,15 +133,18 @@ retraction::LoadSpec readLoad(JsonObject o, const std::filesystem::path& folder)
   if (kind == "body_force") {
     load = retraction::BodyForce{o.vector3("N_per_m3")};
   } else if (kind == "traction") {
+    if (o.boolean("follows", false))
+      o.fail("follows", "is offered for pressures; a traction keeps its direction: leave it out");
     load = retraction::Traction{readRegion(o.object("region"), folder), o.vector3("kPa")};
   } else if (kind == "pressure") {
-    load = retraction::Pressure{readRegion(o.object("region"), folder), o.number("kPa")};
+    load = retraction::Pressure{readRegion(o.object("region"), folder), o.number("kPa"), o.boolean("follows", false)};
   } else {
     retraction::Retractor r;
-    r.diameter_mm = positive(o, "diameter_mm", o.number("diameter_mm", defaults::retractorDiameter.mm()));
-    r.length_mm = positive(o, "length_mm", o.number("length_mm", 80.0));
-    r.spread_mm = o.number("spread_mm", r.spread_mm);
-    if (r.spread_mm < 0) o.fail("spread_mm", "must not be negative");
+    using retraction::Retractor;
+    r.diameter_mm = within(o, "diameter_mm", o.number("diameter_mm", defaults::retractorDiameter.mm()),
+                           Retractor::diameters_mm, "mm");
+    r.length_mm = within(o, "length_mm", o.number("length_mm", 80.0), Retractor::lengths_mm, "mm");
+    r.spread_mm = within(o, "spread_mm", o.number("spread_mm", r.spread_mm), Retractor::spreads_mm, "mm");
     if (o.has("at")) {
       if (o.raw("at").is_string())
         o.word("at", {"inferior-right-lobe"});
@@ -141,10 +163,12 @@ retraction::LoadSpec readLoad(JsonObject o, const std::filesystem::path& folder)
     } else {
       r.force_N = forceOf(o);
     }
-    r.contact = o.word("contact", {"rigid", "patch"}, "patch") == "rigid" ? retraction::ContactKind::Rigid
-                                                                          : retraction::ContactKind::Patch;
-    if (r.contact == retraction::ContactKind::Patch && (r.travel_mm || o.has("shape")))
-      o.fail("contact", "is \"patch\", a pressure, which has neither travel nor shape: ask for \"contact\": \"rigid\"");
+    r.contact.reset();
+    if (o.has("contact"))
+      r.contact = o.word("contact", {"rigid", "patch"}) == "rigid" ? retraction::ContactKind::Rigid
+                                                                   : retraction::ContactKind::Patch;
+    if (r.contact == retraction::ContactKind::Patch && r.travel_mm)
+      o.fail("contact", "is \"patch\", a pressure, which has no travel: give a force, or \"contact\": \"rigid\"");
     r.shape = o.word("shape", {"straight", "hook"}, "straight") == "hook" ? retraction::BarShape::Hook
                                                                          : retraction::BarShape::Straight;
     r.direction = direction(o, "direction", Eigen::Vector3d(0, -1, 0));

@@ -236,10 +236,19 @@ TEST(RoiFromStructures, FindsTheLiver) {
     roiFromStructures(set, "kidney");
     FAIL();
   } catch (const BadInput& why) {
-    EXPECT_THAT(why.what(), HasSubstr("'Spleen', 'Whole LIVER'"));
+    EXPECT_THAT(why.what(), HasSubstr("number 1 'Spleen' (2 contours), number 1 'Whole LIVER' (2 contours)"));
   }
   set.structures = {liver, liver};
   EXPECT_THROW(roiFromStructures(set), BadInput);
+  set.structures[1].number = 4;
+  set.structures[1].contours.pop_back();
+  EXPECT_EQ(roiFromStructures(set, {}, 4).polygons.size(), 1u);
+  EXPECT_EQ(roiFromStructures(set, "#1").polygons.size(), 2u);
+  EXPECT_THROW(roiFromStructures(set, {}, 2), BadInput);
+  set.structures[0].contours.clear();
+  Diagnostics said;
+  EXPECT_EQ(roiFromStructures(set, "whole liver", 0, &said).polygons.size(), 1u);
+  EXPECT_TRUE(said.contains(DiagnosticCode::EmptyTwins));
   set.structures = {spleen, spleen};
   EXPECT_THROW(roiFromStructures(set), BadInput);
   set.structures = {spleen};

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "image/morphology.h"
 
 namespace glisson::elastography {
 namespace {
@@ -70,6 +71,41 @@ TEST(StiffnessMap, ConfidenceScales) {
   EXPECT_FLOAT_EQ(map.confidence->values[2], 1.0F);
   c.values[5] = -1.0F;
   EXPECT_THROW(attachConfidence(map, c), BadInput);
+  // Other scales: told by a largest value that is the full one of 8, 10 or 12 bits or of a thousand; else asked for.
+  for (const float full : {255.0F, 1000.0F, 1023.0F, 4095.0F}) {
+    for (float& v : c.values) v = 0.5F * full;
+    c.values[0] = full;
+    const ConfidenceScale scale = attachConfidence(map, c);
+    EXPECT_TRUE(scale.guessed);
+    EXPECT_FLOAT_EQ(map.confidence->values[1], 0.5F);
+    EXPECT_TRUE(doubtsAboutConfidence(map, scale).contains(DiagnosticCode::ConfidenceScaleTaken));
+  }
+  for (const float unknown : {2.0F, 254.0F, 500.0F, 948.0F, 2000.0F}) {
+    c.values[0] = unknown;
+    for (std::size_t v = 1; v < c.values.size(); ++v) c.values[v] = 0.0F;
+    EXPECT_THROW(attachConfidence(map, c), BadInput) << unknown;
+  }
+}
+
+TEST(StiffnessMap, WhereThereIsNoConfidenceIsMarked) {
+  StiffnessMap map = noisyMap(4);
+  image::Grid less = mreGrid();
+  less.size.z() -= 1;
+  const image::ScalarVolume stored(less, 1.0F);
+  const ConfidenceScale scale = attachConfidence(map, stored);
+  ASSERT_TRUE(map.noConfidence);
+  const std::size_t perSlice = mreGrid().linear(0, 0, 1);
+  EXPECT_EQ(image::count(*map.noConfidence), perSlice);
+  EXPECT_EQ(map.noConfidence->values.back(), 1);
+  const Diagnostics doubts = doubtsAboutConfidence(map, scale);
+  ASSERT_TRUE(doubts.contains(DiagnosticCode::ConfidenceCoversLess));
+  EXPECT_THAT(doubts.begin()->text(), testing::HasSubstr("without any: " + std::to_string(mreGrid().size.z() - 1)));
+  const Measurement m = measure(map, image::Mask(mreGrid(), 1));
+  EXPECT_EQ(m.noConfidence, perSlice);
+  EXPECT_EQ(m.lowConfidence, 0u);
+  EXPECT_TRUE(m.diagnostics.contains(DiagnosticCode::NoConfidenceThere));
+  attachConfidence(map, image::ScalarVolume(mreGrid(), 1.0F));
+  EXPECT_FALSE(map.noConfidence);
 }
 
 TEST(Statistics, ClosedForms) {

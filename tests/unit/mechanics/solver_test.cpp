@@ -216,6 +216,7 @@ TEST(Solvers, ALoadAfterMultigridHasFailedIsSolvedWithoutIt) {
   StaticSolver solver(p.body, p.supports, with(SolverKind::Auto, 1e-17));
   const Solution first = solver.solve(p.f_N);
   EXPECT_NE(first.report.why.find("but multigrid"), std::string::npos) << first.report.why;
+  EXPECT_TRUE(first.report.diagnostics.contains(DiagnosticCode::SolverFellBack));
   const Solution second = solver.solve(2 * p.f_N);
   EXPECT_NE(second.report.why.find("failed on an earlier load"), std::string::npos) << second.report.why;
   ASSERT_EQ(second.u_m.cols(), first.u_m.cols());

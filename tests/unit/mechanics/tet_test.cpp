@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "mechanics/static_solve.h"
 #include "mechanics/tet_element.h"
+#include "mechanics/tet_faces.h"
 #include "mechanics/tet_solve.h"
 #include "scenes.h"
 
@@ -331,6 +332,50 @@ TEST(Tetrahedra, SolversAgreeSpringsHoldAndReactionsBalance) {
     EXPECT_TRUE(one.u_m == two.u_m);
     options.kind = SolverKind::Multigrid;
     EXPECT_THROW(solveTets(p, tets, options), BadInput);
+  }
+}
+
+TEST(Tetrahedra, QuadraticOnesStandOnAFoundationAsWellAsTheDefaultHexahedra) {
+  // A clamped block on a foundation, pulled at its end, against hexahedra of a quarter of the edge.
+  const auto standing = [](int fineness, double k_N_m3, std::vector<Foundation>& bed) {
+    Problem p;
+    p.body = test::box(fineness * Eigen::Vector3i(10, 6, 4), {0.04, 0.024, 0.016}, 6e3, 0.45);
+    const VoxelMesh mesh(p.body);
+    const auto always = [](const Eigen::Vector3d&) { return true; };
+    p.supports.fixations = fix(test::nodesWhere(mesh, [](const Eigen::Vector3d& x) { return x.x() < 1e-9; }));
+    bed = foundations(test::facesWhere(mesh, 4, always), k_N_m3);
+    p.supports.springs = faceSprings(mesh, bed);
+    p.f_N = tractionForce(mesh, test::facesWhere(mesh, 1, always), Eigen::Vector3d(0, 50, -100));
+    return p;
+  };
+  for (const double k_N_m3 : {2e4, 2e5}) {
+    std::vector<Foundation> bed, fineBed;
+    const Problem p = standing(1, k_N_m3, bed), fine = standing(4, k_N_m3, fineBed);
+    const VoxelMesh mesh(p.body), fineMesh(fine.body);
+    const Solution truth = solveStatic(fine), hexahedra = solveStatic(p);
+    const auto error_mm = [&](const NodalField& u_m) {
+      double most = 0;
+      for (int node = 0; node < mesh.nodeCount(); ++node) {
+        const Eigen::Vector3i at = 4 * mesh.latticeOf(node);
+        most = std::max(most, 1e3 * (u_m.col(node) - truth.u_m.col(fineMesh.nodeAt(at.x(), at.y(), at.z()))).norm());
+      }
+      return most;
+    };
+    TetProblem tets = onTetrahedra(p, TetOrder::Quadratic);
+    const VoxelFacesOnTets faces(mesh, tets.mesh);
+    tets.f_N.setZero();
+    for (const Face& face : test::facesWhere(mesh, 1, [](const Eigen::Vector3d&) { return true; }))
+      for (const auto& [node, share] : faces.shares(face))
+        tets.f_N.col(node) += share * faceArea_m2(mesh, face.side) * Eigen::Vector3d(0, 50, -100);
+    const double atCorners = error_mm(solveTets(p, tets, {}).u_m);
+    layFoundations(tets, mesh, bed);
+    Eigen::Matrix3d total = Eigen::Matrix3d::Zero();
+    for (const Spring& s : tets.supports.springs) total += s.k_N_m;
+    EXPECT_NEAR(total(0, 0), k_N_m3 * 0.04 * 0.024, 1e-9 * total(0, 0));
+    const Solution s = solveTets(p, tets, {});
+    EXPECT_LT(error_mm(s.u_m), error_mm(hexahedra.u_m)) << "corners: " << atCorners;
+    EXPECT_LT(error_mm(s.u_m), 0.5 * atCorners);
+    EXPECT_LE((s.reaction_N.rowwise().sum() + p.f_N.rowwise().sum()).norm(), 1e-8 * p.f_N.rowwise().sum().norm());
   }
 }
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <ctime>
+#include <tuple>
+
 #include "base/error.h"
 #include "base/random.h"
 #include "mechanics/dynamics.h"
@@ -124,6 +127,40 @@ TEST(VoxelDynamics, ForcesAtFixedNodesDoNoHarm) {
     q.push_back(t.last.q);
   }
   EXPECT_EQ(q[0], q[1]);
+}
+
+TEST(VoxelDynamics, TheFirstStepCostsInProportionToTheBody) {
+  // Processor time from nothing to the end of the first step, on bodies of 10,125 and 73,167 degrees of freedom.
+  const auto firstStep_s = [](int n) {
+    const Problem p = cube(n, 0.45, true);
+    DynamicOptions dynamic;
+    dynamic.h_s = dynamic.end_s = 0.05;
+    const std::clock_t start = std::clock();
+    EXPECT_EQ(solveDynamic(p, dynamic).trajectory.steps, 1);
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+  const double small = firstStep_s(14), large = firstStep_s(28);
+  EXPECT_LT(large, 20 * std::max(small, 0.005)) << small << " s and " << large << " s";
+}
+
+TEST(VoxelDynamics, MotionsEndAtTheTimeAskedFor) {
+  for (const auto& [h_s, end_s, steps] : {std::tuple{0.03, 0.1, 4}, {0.003, 0.1, 34}, {0.025, 0.1, 4}, {0.2, 0.1, 1}}) {
+    const TimeSteps plan = timeSteps(h_s, end_s);
+    EXPECT_EQ(plan.count, steps);
+    EXPECT_LE(plan.h_s, h_s);
+    EXPECT_NEAR(plan.count * plan.h_s, end_s, 1e-12);
+    DynamicOptions dynamic;
+    dynamic.h_s = h_s;
+    dynamic.end_s = end_s;
+    const Trajectory t = solveDynamic(cube(3, 0.45, true), dynamic).trajectory;
+    EXPECT_NEAR(t.last.t_s, end_s, 1e-12);
+    EXPECT_EQ(t.steps, steps);
+    EXPECT_EQ(t.h_s, plan.h_s);
+  }
+  EXPECT_EQ(timeSteps(1e-3, 2.0).h_s, 1e-3);
+  EXPECT_EQ(timeSteps(1e-3, 0.0).count, 0);
+  EXPECT_THROW(timeSteps(0.0, 1.0), BadInput);
+  EXPECT_THROW(timeSteps(1e-3, -1.0), BadInput);
 }
 
 }  // namespace

@@ -136,6 +136,9 @@ TEST(Together, aSceneKeepsWhatABareElastogramIs) {
   const Scene again = parseScene(toJson(scene(R"(,"mre_quantity":"youngs","mre_unit":"0.01kPa")")), folder.path());
   EXPECT_EQ(again.geometry.mreQuantity, StiffnessQuantity::Youngs);
   EXPECT_EQ(again.geometry.mreUnit, "0.01kPa");
+  EXPECT_EQ(parseScene(toJson(scene(R"(,"mre_confidence_scale":255)")), folder.path()).geometry.mreConfidenceScale,
+            255.0);
+  EXPECT_THROW(scene(R"(,"mre_confidence_scale":0)"), BadInput);
   EXPECT_THROW(scene(R"(,"mre_quantity":"bulk")"), BadInput);
 }
 

@@ -1,0 +1,127 @@
+#include "dicom/series_facts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "base/map_unit.h"
+#include "base/text.h"
+
+namespace glisson::dicom {
+namespace {
+
+std::string listed(const std::map<std::string, std::size_t>& counts) {
+  std::string all;
+  for (const auto& [name, count] : counts) all += (all.empty() ? "" : ", ") + name;
+  return all;
+}
+
+bool oneScale(const std::vector<SliceFacts>& slices) {
+  const Frame& first = *slices.front().frame;
+  return std::all_of(slices.begin(), slices.end(), [&](const SliceFacts& s) {
+    return s.frame->map == first.map && s.frame->rescale == first.rescale;
+  });
+}
+
+void takeUnit(const std::vector<SliceFacts>& slices, Series& series) {
+  std::map<std::string, std::size_t> counts;
+  std::size_t without = 0;
+  for (const SliceFacts& s : slices)
+    if (s.frame->unit.empty())
+      ++without;
+    else
+      ++counts[s.frame->unit];
+  if (counts.empty()) return;
+  const auto most =
+      std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  series.unit = most->first;
+  const auto unit = mapUnit(most->first);
+  const bool alike = std::all_of(counts.begin(), counts.end(), [&](const auto& other) {
+    const auto known = mapUnit(other.first);
+    return known && unit && known->of == unit->of;
+  });
+  if (counts.size() > 1 && alike)
+    tell(series, DiagnosticCode::UnitsDiffer, {{"units", listed(counts)}, {"unit", *series.unit}});
+  else if (counts.size() > 1)
+    series.noScale = "its slices are in units that cannot be turned into each other (" + listed(counts) + ")";
+  if (without > 0 && !oneScale(slices))
+    series.noScale = std::to_string(without) + " of its " + std::to_string(slices.size()) +
+                     " slices name no unit and have another scale than the others (" + listed(counts) + ")";
+}
+
+void takeQuantity(const std::vector<SliceFacts>& slices, Series& series) {
+  std::set<std::string> names;
+  for (const SliceFacts& s : slices) {
+    if (!s.frame->quantity) continue;
+    series.quantity = s.frame->quantity;
+    names.insert(inWords(*s.frame->quantity));
+  }
+  if (names.size() > 1) series.noScale = "its slices hold different quantities: " + *names.begin() + " and others";
+}
+
+void takeScale(const std::vector<SliceFacts>& slices, Series& series) {
+  std::set<ScaleDoubt> doubts;
+  for (const SliceFacts& s : slices) {
+    doubts.insert(s.frame->scaleDoubt);
+    series.acquired.rescaled = series.acquired.rescaled || s.frame->map >= 0 || !(s.frame->rescale == Rescale{});
+    const auto own = s.header->privateScale;
+    if (own && s.frame->map < 0 && s.frame->unit.empty() && std::abs(*own * s.frame->rescale.slope - 1.0) > 1e-6 &&
+        lowerCase(s.header->manufacturer).find("philips") != std::string::npos)
+      series.acquired.privateScale = own;
+  }
+  if (doubts.count(ScaleDoubt::MapsDisagree) > 0)
+    series.noScale = "its real-world value maps give different values for one stored value";
+  if (doubts.count(ScaleDoubt::MapUsed) > 0)
+    tell(series, DiagnosticCode::ScalesDiffer,
+         {{"used", std::string("map")}, {"because", std::string("alone names a unit of stiffness")}});
+  if (doubts.count(ScaleDoubt::RescaleUsed) > 0)
+    tell(series, DiagnosticCode::ScalesDiffer,
+         {{"used", std::string("rescale")}, {"because", std::string("is what every reader applies")}});
+}
+
+void takeAcquisition(const std::vector<SliceFacts>& slices, Series& series) {
+  constexpr std::size_t mostReferences = 4096;
+  const ImageHeader& h = *slices.front().header;
+  Acquired& a = series.acquired;
+  a.uid = h.acquisitionUid;
+  a.number = h.acquisitionNumber;
+  a.manufacturer = h.manufacturer;
+  a.sequenceName = h.sequenceName;
+  a.imageType = h.imageType;
+  a.elastographyStep = h.step.time >= 0;
+  for (const auto& [what, value] : slices.front().frame->kinds)
+    if (what == "image type") a.imageType = value;
+  std::set<std::string> references;
+  const ImageHeader* before = nullptr;
+  for (const SliceFacts& s : slices) {
+    a.phaseCoded = a.phaseCoded || std::any_of(s.frame->kinds.begin(), s.frame->kinds.end(), [](const auto& k) {
+                     return k.first == "private image type" && k.second != "0";
+                   });
+    if (s.header == before) continue;
+    before = s.header;
+    if (s.header->acquisitionUid != a.uid) a.uid.clear();
+    if (s.header->acquisitionNumber != a.number) a.number.reset();
+    if (s.header->acquisition_s)
+      a.time_s = a.time_s ? std::min(*a.time_s, *s.header->acquisition_s) : s.header->acquisition_s;
+    if (references.size() < mostReferences) references.insert(s.header->references.begin(), s.header->references.end());
+  }
+  a.references.assign(references.begin(), references.end());
+}
+
+}  // namespace
+
+void takeFacts(const std::vector<SliceFacts>& slices, Series& series) {
+  takeUnit(slices, series);
+  takeQuantity(slices, series);
+  takeScale(slices, series);
+  takeAcquisition(slices, series);
+}
+
+void tell(Series& series, DiagnosticCode code, std::vector<std::pair<std::string, DiagnosticValue>> arguments) {
+  series.diagnostics.add(code, std::move(arguments));
+  series.warnings.push_back(std::prev(series.diagnostics.end())->text());
+}
+
+}  // namespace glisson::dicom

@@ -1,0 +1,65 @@
+#include <algorithm>
+
+#include "base/error.h"
+#include "retraction/pose.h"
+#include "retraction/rigid_contact.h"
+#include "retraction/smooth_body.h"
+
+namespace glisson::retraction {
+
+PlacedBar placeBar(const Model& model, const Model* other, const Setup& setup, const Progress& progress) {
+  std::optional<Retractor> bar = rigidBarOf(setup);
+  if (!bar) throw BadArgument("placeBar: the scene has no rigid retractor");
+  PlacedBar placed;
+  if (!model.smooth) {
+    if (!bar->at_mm) throw BadInput("the retractor on a box needs its place: give \"at\" as a point");
+    placed.bar = *bar;
+    placed.bar.axis = bar->patchAxis();
+    return placed;
+  }
+  const mechanics::TriangleSurface surface = model.smooth->surface();
+  const auto at = [&](const Pose& pose) {
+    Retractor r = *bar;
+    r.at_mm = pose.centre_mm;
+    r.axis = pose.axis;
+    return r;
+  };
+  if (bar->at_mm) {
+    placed.pose = poseAt(surface, *bar, *bar->at_mm);
+    placed.bar = at(*placed.pose);
+    return placed;
+  }
+  constexpr double proof = 1.1;
+  constexpr std::size_t most = 6;  // places tried
+  const std::vector<Pose> candidates = poseCandidates(*model.smooth, surface, *bar);
+  double best = -1;
+  for (std::size_t i = 0; i < std::min(most, candidates.size()); ++i) {
+    const Retractor r = at(candidates[i]);
+    double least = 1e9;
+    for (const Model* m : {&model, other}) {
+      if (m == nullptr || (m == other && least < 1)) continue;
+      const Body body(*m);
+      const ContactScene contact = contactScene(body, *m, setup, toMechanics(body, *m, setup), r);
+      mechanics::ContactOptions options;
+      options.pathOnly = true;
+      options.proof = proof;
+      options.tolerance = 1e-2;
+      const mechanics::ContactSolution s = mechanics::solveContact(contact.problem, options, progress);
+      const double asked = contact.problem.force_N ? proof * *contact.problem.force_N : 0;
+      least = std::min(least, s.outcome == mechanics::ContactOutcome::Reached || asked == 0
+                                  ? proof
+                                  : proof * s.capacity_N / asked);
+    }
+    placed.tried.push_back({candidates[i].height_mm, least});
+    if (least > best) {
+      best = least;
+      placed.pose = candidates[i];
+      placed.bar = r;
+    }
+    if (best >= proof) break;
+  }
+  placed.bears = best >= 1;
+  return placed;
+}
+
+}  // namespace glisson::retraction

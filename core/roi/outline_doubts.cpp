@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <cstdint>
+
+#include "roi/arrangement.h"
+#include "roi/detail/slabs.h"
+#include "roi/plane.h"
+
+namespace glisson::roi {
+namespace {
+
+std::int64_t number(std::size_t n) {
+  return static_cast<std::int64_t>(n);
+}
+
+double areaOf(const Eigen::Matrix2Xd& ring) {
+  double area = 0.0;
+  detail::forTrapezoids({ring}, [&area](const std::vector<bool>& in, double a) { area += in[0] ? a : 0.0; });
+  return area;
+}
+
+struct Counts {
+  std::size_t repeated = 0, repeatedOn = 0, overlapping = 0, overlappingOn = 0, cancelling = 0, specks = 0;
+
+  void add(const ContourStack& contours, const std::vector<std::size_t>& members, const image::Grid& grid) {
+    std::vector<Eigen::Matrix2Xd> rings;
+    std::vector<bool> flips;
+    for (const std::size_t p : members) {
+      const Polygon& polygon = contours.polygons[p];
+      if (polygon.exclude) continue;
+      rings.emplace_back(grid.direction.leftCols<2>().transpose() *
+                         (polygon.points_lps_mm.colwise() - grid.origin_lps_mm));
+      flips.push_back(polygon.combine == Combine::Parity);
+    }
+    if (rings.empty()) return;
+    constexpr double speck_pixels = 0.25;
+    bool large = false;
+    for (const Eigen::Matrix2Xd& ring : rings) {
+      const bool speck = areaOf(ring) < speck_pixels * grid.spacing_mm.head<2>().prod();
+      specks += speck ? 1 : 0;
+      large = large || !speck;
+    }
+    const Arrangement arrangement = arrange(rings, flips);
+    repeated += arrangement.repeated;
+    repeatedOn += arrangement.repeated > 0 ? 1 : 0;
+    overlapping += arrangement.overlapping;
+    overlappingOn += arrangement.overlapping > 0 ? 1 : 0;
+    if (!large || std::find(flips.begin(), flips.end(), true) == flips.end()) return;
+    double area = 0.0;
+    detail::forTrapezoids(rings, [&](const std::vector<bool>& in, double a) { area += holds(arrangement, in) ? a : 0.0; });
+    cancelling += area < speck_pixels * grid.spacing_mm.head<2>().prod() ? 1 : 0;
+  }
+};
+
+}  // namespace
+
+Diagnostics outlineDoubts(const ContourStack& contours, const image::Grid& grid, bool drawnHere) {
+  Diagnostics doubts;
+  const SliceOutlines slices = outlinesOf(contours, grid);
+  Counts counts;
+  for (const std::vector<std::size_t>& members : slices.members) counts.add(contours, members, grid);
+  if (counts.repeated > 0)
+    doubts.add(DiagnosticCode::OutlinesRepeated,
+               {{"count", number(counts.repeated)}, {"slices", number(counts.repeatedOn)}});
+  if (counts.overlapping > 0)
+    doubts.add(DiagnosticCode::OutlinesOverlap,
+               {{"count", number(counts.overlapping)}, {"slices", number(counts.overlappingOn)}});
+  if (counts.cancelling > 0) doubts.add(DiagnosticCode::OutlinesCancel, {{"slices", number(counts.cancelling)}});
+  if (!slices.offPlane.empty())
+    doubts.add(DiagnosticCode::OutlinesOffPlane,
+               {{"count", number(slices.offPlane.size())}, {"mm", slices.farthestOffPlane_mm}});
+  if (!slices.leftOut.empty())
+    doubts.add(DiagnosticCode::OutlinesLeftOut,
+               {{"count", number(slices.leftOut.size())}, {"mm", slices.farthestOffPlane_mm}});
+  if (drawnHere && !slices.beyond.empty())
+    doubts.add(DiagnosticCode::OutlinesBeyond,
+               {{"count", number(slices.beyond.size())}, {"all", number(contours.polygons.size())}});
+  if (counts.specks > 0) doubts.add(DiagnosticCode::OutlineSpecks, {{"count", number(counts.specks)}});
+  return doubts;
+}
+
+}  // namespace glisson::roi
