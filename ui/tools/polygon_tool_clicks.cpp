@@ -176,7 +176,7 @@ Acts PolygonTool::key(ToolKey key, const SlicePlane& plane) {
 Acts PolygonTool::leaveSlice(const SlicePlane& plane) {
   Acts acts;
   if (points_.cols() > 0) {
-    acts.push_back(AddPolygon{polygonOf(plane, roi::PolygonState::Draft)});
+    acts.emplace_back(AddPolygon{polygonOf(plane, roi::PolygonState::Draft)});
     message_ = {say::parkedOnSlice, {std::to_string(plane.slice + 1)}};
   }
   drag_ = Drag::None;

@@ -12,6 +12,7 @@ namespace glisson::mechanics {
 namespace {
 
 constexpr std::size_t chunk = 1024;
+constexpr double reach_m = 0.02;  ///< samples within this of the bar are looked at, until something has moved as far
 /// The barrier of soft tissue: 20 kPa/mm, or the mean modulus over a millimetre where the body is stiffer.
 constexpr double softest_Pa_m = 2e7;
 
@@ -67,25 +68,67 @@ Eigen::Vector3d ContactEnergy::place(std::size_t sample, const State& at) const 
   return surface_[sample].p_m + level.points[sample].at(at.u.data(), level.nodes());
 }
 
+void ContactEnergy::setLoads(std::size_t top, const std::vector<double>& loads) {
+  top_ = top;
+  loads_ = loads;
+  near_ = {};
+  spread_ = 1;
+  for (const CarriedPoint& p : hierarchy_.level(top).points) {
+    double sum = 0;
+    for (const float w : p.weight) sum += std::abs(static_cast<double>(w));
+    spread_ = std::max(spread_, sum);
+  }
+}
+
+double ContactEnergy::movedSince(const State& at) const {
+  if (near_.top != top_ || near_.at.u.size() != at.u.size()) return std::numeric_limits<double>::infinity();
+  const std::size_t n = at.u.size() / 3;
+  const double *a = at.u.data(), *b = near_.at.u.data();
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = a[i] - b[i], y = a[n + i] - b[n + i], z = a[2 * n + i] - b[2 * n + i];
+    largest = std::max(largest, x * x + y * y + z * z);
+  }
+  return spread_ * std::sqrt(largest) + std::abs(at.s - near_.at.s);
+}
+
+const std::vector<std::uint32_t>& ContactEnergy::near(const State& at) const {
+  if (movedSince(at) < reach_m - barrier_.width_m) return near_.samples;
+  gaps_.resize(surface_.size());
+  parallelChunks(surface_.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) gaps_[p] = gapTo(*bar_, place(p, at), at.s);
+  });
+  near_.top = top_;
+  near_.at = at;
+  near_.samples.clear();
+  for (std::size_t p = 0; p < surface_.size(); ++p)
+    if (gaps_[p].g_m < reach_m) near_.samples.push_back(static_cast<std::uint32_t>(p));
+  return near_.samples;
+}
+
 bool ContactEnergy::evaluate(const State& at, std::optional<double> force_N, bool travels, Value& value) const {
   const SolidLevel& level = hierarchy_.level(top_);
   const std::size_t n = level.nodes();
   value.gradient.resize(level.size());
   if (!level.forces(law_, at.u.data(), value.potential, value.gradient.data())) return false;
-  value.barForce_N = value.contact_N = value.loads_N = 0;
+  value.barForce_N = value.contact_N = value.loads_N = value.deepest_m = 0;
   if (bar_) {
-    gaps_.resize(surface_.size());
-    parallelChunks(surface_.size(), chunk, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p) gaps_[p] = gapTo(*bar_, place(p, at), at.s);
+    const std::vector<std::uint32_t>& samples = near(at);
+    gaps_.resize(samples.size());
+    parallelChunks(samples.size(), chunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) gaps_[i] = gapTo(*bar_, place(samples[i], at), at.s);
     });
-    for (std::size_t p = 0; p < surface_.size(); ++p) {
-      if (!barrier_.acts(gaps_[p].g_m)) continue;
-      if (!barrier_.feasible(gaps_[p].g_m)) return false;
-      const Barrier::Value phi = barrier_.at(gaps_[p].g_m);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Gap& gap = gaps_[i];
+      if (!barrier_.acts(gap.g_m)) continue;
+      value.deepest_m = std::max(value.deepest_m, -gap.g_m);
+      if (!barrier_.feasible(gap.g_m)) return false;
+      const Barrier::Value phi = barrier_.at(gap.g_m);
+      const std::size_t p = samples[i];
       const double w = surface_[p].area_m2;
       value.potential += w * phi.energy;
-      level.points[p].add<double>(w * phi.first * gaps_[p].n, value.gradient.data(), n);
-      value.barForce_N -= w * phi.first * gaps_[p].n.dot(bar_->hoist);
+      level.points[p].add<double>(w * phi.first * gap.n, value.gradient.data(), n);
+      value.barForce_N -= w * phi.first * gap.n.dot(bar_->hoist);
       value.contact_N -= w * phi.first;
     }
   }
@@ -167,16 +210,21 @@ std::vector<FollowerStiffness> ContactEnergy::followers(const State& at) const {
 bool ContactEnergy::passes(const State& from, const State& to) const {
   if (!bar_) return true;
   const double shift = std::abs(to.s - from.s);
-  std::vector<char> bad((surface_.size() + chunk - 1) / chunk, 0);
-  parallelChunks(surface_.size(), chunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
+  // On a straight way nothing moves further from the state of near_ than at one of its ends.
+  const std::vector<std::uint32_t>& close = near(to);
+  const bool all = movedSince(from) >= reach_m;
+  const std::size_t count = all ? surface_.size() : close.size();
+  std::vector<char> bad((count + chunk - 1) / chunk, 0);
+  parallelChunks(count, chunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t p = all ? i : close[i];
       const Eigen::Vector3d a = place(p, from), b = place(p, to);
       const double way = (b - a).norm() + shift;
       if (way < bar_->radius_m) continue;  // the ends of the step are judged by evaluate()
       if (gapTo(*bar_, a, from.s).g_m > way) continue;
       const int parts = static_cast<int>(std::ceil(2 * way / bar_->radius_m));
-      for (int i = 1; i < parts; ++i) {
-        const double t = static_cast<double>(i) / parts;
+      for (int part = 1; part < parts; ++part) {
+        const double t = static_cast<double>(part) / parts;
         if (!barrier_.feasible(gapTo(*bar_, a + t * (b - a), from.s + t * (to.s - from.s)).g_m)) bad[begin / chunk] = 1;
       }
     }
@@ -198,14 +246,14 @@ std::vector<PointStiffness> ContactEnergy::stiffness(const State& at) const {
     out.push_back(k);
   }
   if (!bar_) return out;
-  for (std::size_t p = 0; p < surface_.size(); ++p) {
+  for (const std::uint32_t p : near(at)) {
     const Gap gap = gapTo(*bar_, place(p, at), at.s);
     if (!barrier_.acts(gap.g_m) || !barrier_.feasible(gap.g_m)) continue;
     const Barrier::Value phi = barrier_.at(gap.g_m);
     const Eigen::Matrix3d nn = gap.n * gap.n.transpose();
     const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity() - nn - gap.t * gap.t.transpose();
     PointStiffness k;
-    k.point = static_cast<std::uint32_t>(p);
+    k.point = p;
     k.positive = (surface_[p].area_m2 * phi.second * nn).cast<float>();
     k.exact = (surface_[p].area_m2 * (phi.second * nn + phi.first / gap.rho_m * turn)).cast<float>();
     out.push_back(k);

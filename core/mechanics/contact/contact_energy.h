@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -27,14 +28,12 @@ class ContactEnergy {
     std::vector<double> gradient;  ///< size() of the level; the last entry is bar force − F, or 0 where s is given
     double barForce_N = 0;         ///< along the hoist, on the body
     double contact_N = 0;          ///< Σ |force| of all samples
+    double deepest_m = 0;          ///< of the samples inside the bar
     double loads_N = 0;            ///< ‖f‖ on the free degrees of freedom
   };
 
   /// Level, and its dead loads (3 nodes, N; or empty).
-  void setLoads(std::size_t top, const std::vector<double>& loads) {
-    top_ = top;
-    loads_ = loads;
-  }
+  void setLoads(std::size_t top, const std::vector<double>& loads);
   /// False where the law or the contact is not defined (a sample deeper than the guard).
   bool evaluate(const State& at, std::optional<double> force_N, bool travels, Value& value) const;
   /// True where no sample passes through the bar on the straight way from one state to the next.
@@ -60,6 +59,10 @@ class ContactEnergy {
   void forTriangles(const State& at, const F& f) const;
   /// The bar is brought from behind to its first touch.
   void bringToTouch();
+  /// The samples that can be in contact in this state: all others are out of the barrier's zone.
+  const std::vector<std::uint32_t>& near(const State& at) const;
+  /// How far samples and bar can have moved towards each other since `near_` was chosen, from above; m.
+  double movedSince(const State& at) const;
 
   const SolidHierarchy& hierarchy_;
   std::vector<SurfaceSample> surface_;
@@ -72,7 +75,15 @@ class ContactEnergy {
   Barrier barrier_;
   std::size_t top_ = 0;
   std::vector<double> loads_;
-  mutable std::vector<Gap> gaps_;
+  /// Samples that were within reach of the bar in a state of level `top`.
+  struct Near {
+    std::size_t top = 0;
+    State at;
+    std::vector<std::uint32_t> samples;
+  };
+  mutable Near near_;
+  mutable std::vector<Gap> gaps_;  ///< of near_.samples
+  double spread_ = 1;              ///< largest Σ |weight| of a sample: it moves by no more than this times a node
 };
 
 }  // namespace glisson::mechanics

@@ -28,20 +28,26 @@ std::optional<Eigen::Vector3i> carrierCell(const VoxelMesh& mesh, const Eigen::V
   if (mesh.isFilled(home.x(), home.y(), home.z())) return home;
   std::optional<Eigen::Vector3i> best;
   double nearest = std::numeric_limits<double>::infinity();
-  for (int k = -searchReach; k <= searchReach; ++k)
-    for (int j = -searchReach; j <= searchReach; ++j)
-      for (int i = -searchReach; i <= searchReach; ++i) {
-        const Eigen::Vector3i cell = home + Eigen::Vector3i(i, j, k);
-        if (!mesh.isFilled(cell.x(), cell.y(), cell.z())) continue;
-        const Eigen::Vector3d low = cell.cast<double>(), high = low + Eigen::Vector3d::Ones();
-        const Eigen::Vector3d off = (q - q.cwiseMax(low).cwiseMin(high)).cwiseProduct(mesh.h_m());
-        const Eigen::Vector3d middle = (q - 0.5 * (low + high)).cwiseProduct(mesh.h_m());
-        const double d = off.squaredNorm() + 1e-6 * middle.squaredNorm();
-        if (d < nearest) {
-          nearest = d;
-          best = cell;
+  const double shortest = mesh.h_m().minCoeff();
+  for (int ring = 1; ring <= searchReach; ++ring) {
+    for (int k = -ring; k <= ring; ++k)
+      for (int j = -ring; j <= ring; ++j)
+        for (int i = -ring; i <= ring; ++i) {
+          if (std::max({std::abs(i), std::abs(j), std::abs(k)}) != ring) continue;
+          const Eigen::Vector3i cell = home + Eigen::Vector3i(i, j, k);
+          if (!mesh.isFilled(cell.x(), cell.y(), cell.z())) continue;
+          const Eigen::Vector3d low = cell.cast<double>(), high = low + Eigen::Vector3d::Ones();
+          const Eigen::Vector3d off = (q - q.cwiseMax(low).cwiseMin(high)).cwiseProduct(mesh.h_m());
+          const Eigen::Vector3d middle = (q - 0.5 * (low + high)).cwiseProduct(mesh.h_m());
+          const double d = off.squaredNorm() + 1e-6 * middle.squaredNorm();
+          if (d < nearest) {
+            nearest = d;
+            best = cell;
+          }
         }
-      }
+    // Cells of the next ring are further away than this.
+    if (nearest < std::pow(ring * shortest, 2)) break;
+  }
   return best;
 }
 
@@ -57,9 +63,6 @@ SolidLevel finestLevel(const ContactProblem& problem) {
     if (!(body.E_Pa[c] > 0)) continue;
     moduli.mu_Pa[c] = body.E_Pa[c] * lameMu(body.poisson);
     moduli.lambda_Pa[c] = body.E_Pa[c] * lameLambda(body.poisson);
-    if (problem.skin_Pa.empty()) continue;
-    moduli.mu_Pa[c] += problem.skin_Pa[c] * lameMu(problem.skinPoisson);
-    moduli.lambda_Pa[c] += problem.skin_Pa[c] * lameLambda(problem.skinPoisson);
   }
   SolidLevel level(std::move(moduli));
   const std::size_t n = level.nodes();
@@ -91,6 +94,12 @@ std::vector<SurfaceSample> carriedSurface(SolidHierarchy& hierarchy, const Conta
     surface.push_back(problem.surface[p]);
     cells.push_back(*cell);
     places.push_back(problem.surface[p].p_m);
+  }
+  if (problem.skin && problem.skin->stiffness_N_m > 0) {
+    std::vector<SkinSample> skin;
+    for (std::size_t i = 0; i < surface.size(); ++i)
+      skin.push_back({cells[i], surface[i].p_m, surface[i].normal, surface[i].area_m2});
+    hierarchy.setSkin(skin, *problem.skin);
   }
   const auto carried = [&](const Eigen::Vector3d& p_m) {
     const auto cell = carrierCell(mesh, p_m);

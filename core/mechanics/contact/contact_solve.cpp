@@ -19,6 +19,7 @@ constexpr double pathTolerance = 1e-2;
 constexpr double farthest_m = 0.2;      ///< of travel
 constexpr double slipFall = 0.75;       ///< of the largest force: the bar slips
 constexpr double slipTravel_m = 12e-3;  ///< past the largest force without reaching it again
+constexpr int meetingTries = 40;        ///< travels tried for one force
 constexpr double coarsePathCells = 1.4; ///< largest cells of the path over the bar's radius
 
 using State = ContactEnergy::State;
@@ -54,6 +55,7 @@ struct Solver {
     return value.barForce_N;
   }
   bool follow(State& state);
+  bool meetForce(State& state, double tolerance, NewtonRun& run);
   bool finish(State& state);
   bool loadInSteps(State& state);
   std::size_t pathLevel() const;
@@ -144,6 +146,65 @@ bool Solver::follow(State& state) {
   return ended(best > 0 ? ContactOutcome::Slips : ContactOutcome::Stopped, best > 0);
 }
 
+/// The travel at which the bar bears the force, with the travel prescribed: that stays well posed where the force hardly
+/// rises any more, and where it falls. False where no step is possible or the force has fallen for good.
+bool Solver::meetForce(State& state, double tolerance, NewtonRun& run) {
+  const double goal = *problem.force_N;
+  struct Side {
+    State state;
+    double off_N = 0;  ///< force less goal
+  };
+  std::optional<Side> below, above;
+  State trial = state;
+  double step = firstStep_m, best = 0, bestAt = state.s;
+  for (int tries = 0; tries < meetingTries; ++tries) {
+    State next = trial;
+    run = energy.passes(state, next) ? converge(next, {}, tolerance, 60) : NewtonRun{};
+    if (!run.converged) {
+      // Closer to where it last went well.
+      if (std::abs(trial.s - state.s) < shortestStep_m) return false;
+      const double closer = 0.5 * (trial.s + state.s);
+      trial = state;
+      trial.s = closer;
+      step = std::max(shortestStep_m, 0.5 * step);
+      continue;
+    }
+    state = std::move(next);
+    const double off = barForce(state) - goal;
+    if (off + goal > best) best = off + goal, bestAt = state.s;
+    if (std::abs(off) <= tolerance * goal) return true;
+    (off < 0 ? below : above) = Side{state, off};
+    if (below && above) {
+      const Side &a = *below, &b = *above;
+      if (std::abs(b.state.s - a.state.s) < 1e-9) return false;
+      // Secant, kept away from both ends.
+      double t = a.off_N / (a.off_N - b.off_N);
+      if (tries % 4 == 3) t = 0.5;
+      t = std::clamp(t, 0.02, 0.98);
+      trial = std::abs(a.off_N) < b.off_N ? a.state : b.state;
+      for (std::size_t i = 0; i < trial.u.size(); ++i) trial.u[i] = (1 - t) * a.state.u[i] + t * b.state.u[i];
+      trial.s = (1 - t) * a.state.s + t * b.state.s;
+      ContactEnergy::Value value;
+      if (!energy.evaluate(trial, {}, false, value)) {
+        const double s = trial.s;
+        trial = state;
+        trial.s = s;
+      }
+      continue;
+    }
+    if (below && (off + goal < slipFall * best || state.s > bestAt + slipTravel_m)) {
+      out.outcome = ContactOutcome::Slips;
+      out.capacity_N = best;
+      out.capacityExceeded = true;
+      return false;
+    }
+    trial = state;
+    trial.s += below ? step : -step;
+    step = std::min(1.3 * step, longestStep_m);
+  }
+  return false;
+}
+
 /// From the end of the path to the answer on the finest cells.
 bool Solver::finish(State& state) {
   for (std::size_t l = energy.top();; --l) {
@@ -157,24 +218,20 @@ bool Solver::finish(State& state) {
     const bool lastLevel = l == 0 || options.pathOnly;
     const double tolerance = lastLevel ? options.tolerance : std::max(1e-3, options.tolerance);
     State trial = state;
-    NewtonRun run = converge(trial, problem.force_N, tolerance, 80);
+    NewtonRun run = converge(trial, problem.force_N, tolerance, 40);
     if (run.converged && trial.s > state.s + slipTravel_m) run.converged = false;
-    if (!run.converged && problem.force_N) {
-      // The coarse cells bore more than these do, or the way there was too long: the path again, from here.
-      trial = state;
-      if (!converge(trial, {}, pathTolerance, 80).converged) return false;
-      if (barForce(trial) < *problem.force_N && !follow(trial)) {
-        state = std::move(trial);
+    if (run.converged) {
+      state = std::move(trial);
+    } else {
+      // The coarse cells bore more than these do, or the force hardly rises with travel.
+      out.outcome = ContactOutcome::Stopped;
+      if (!problem.force_N || !meetForce(state, tolerance, run)) {
+        out.solution.report.residual = run.residual;
         return false;
       }
-      run = converge(trial, problem.force_N, tolerance, 80);
+      out.outcome = ContactOutcome::Reached;
     }
     out.solution.report.residual = run.residual;
-    if (!run.converged) {
-      out.outcome = ContactOutcome::Stopped;
-      return false;
-    }
-    state = std::move(trial);
     if (lastLevel) return true;
   }
 }

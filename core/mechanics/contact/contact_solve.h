@@ -7,6 +7,7 @@
 
 #include "base/progress.h"
 #include "mechanics/contact/cell_kernel.h"
+#include "mechanics/contact/membrane.h"
 #include "mechanics/contact/rigid_bar.h"
 #include "mechanics/problem.h"
 
@@ -37,8 +38,7 @@ struct ContactProblem {
   Problem problem;  ///< E of a cell that the surface cuts: modulus times covered fraction; f_N: dead loads
   SolidLaw law = SolidLaw::Polynomial;
   std::vector<SurfaceSample> surface;
-  std::vector<double> skin_Pa;  ///< per cell, x fastest: further Young's modulus of the surface's cells, or empty
-  double skinPoisson = 0.3;
+  std::optional<Skin> skin;  ///< on the whole surface
   std::vector<FollowerFace> pressures;  ///< together a closed surface, or one whose rim does not move
   std::vector<BedSample> bed;
   std::optional<RigidBar> bar;       ///< from anywhere behind its first touch; travel counts from there

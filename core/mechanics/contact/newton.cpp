@@ -59,6 +59,8 @@ struct Minimiser {
       for (std::size_t d = 0; d < trial.u.size(); ++d) trial.u[d] += scale * step[d];
       trial.s += scale * step.back();
       if (!energy.evaluate(trial, goal.force_N, travels, next)) continue;
+      // Once on the wrong side of the bar a sample does not find back: steps end in the barrier's zone or little deeper than they began.
+      if (next.deepest_m > std::max(energy.barrier().width_m, now.deepest_m + 0.25 * energy.barrier().width_m)) continue;
       const double fall = now.potential - next.potential;
       const bool rounding = std::abs(fall) <= 1e-11 * (std::abs(now.potential) + std::abs(next.potential));
       if (!(fall >= -armijo * scale * slope) && !(rounding && normOf(next.gradient) < size)) continue;

@@ -58,6 +58,16 @@ void SolidHierarchy::setPoints(const std::vector<Eigen::Vector3i>& cells, const 
   }
 }
 
+void SolidHierarchy::setSkin(const std::vector<SkinSample>& samples, const Skin& skin) {
+  std::vector<SkinSample> at = samples;
+  for (SolidLevel& level : levels_) {
+    level.membrane = Membrane(*level.lattice, level.moduli.h_m, at, skin);
+    for (SkinSample& s : at)
+      for (int axis = 0; axis < 3; ++axis)
+        if (level.halved[static_cast<std::size_t>(axis)]) s.cell[axis] /= 2;
+  }
+}
+
 bool SolidHierarchy::linearise(std::size_t top, SolidLaw law, const double* u,
                                const std::vector<PointStiffness>& contact, bool travels, const Eigen::Vector3d& hoist) {
   levels_[top].followers = followers_;

@@ -143,6 +143,7 @@ bool SolidLevel::forces(SolidLaw law, const double* u, double& energy, double* g
     energy += 0.5 * v.dot(f);
     for (std::size_t c = 0; c < 3; ++c) gradient[c * n + s.slot] += f[static_cast<Eigen::Index>(c)];
   }
+  energy += membrane.addForces(u, n, gradient);
   return std::all_of(fine.begin(), fine.end(), [](char g) { return g != 0; }) && std::isfinite(energy);
 }
 
@@ -169,6 +170,7 @@ void SolidLevel::linearise(SolidLaw law, const double* u, const std::vector<Poin
                        lambda.data() + row.offset, state_.data() + TangentArrays::count * row.offset);
       }
   });
+  membrane.linearise(u, nodes());
   contact_ = contact;
   travels_ = travels;
   hoist_ = hoist.cast<float>();
@@ -192,6 +194,7 @@ void SolidLevel::makeBlocks() {
   });
   for (const SlotSpring& s : springs)
     for (std::size_t v = 0; v < 6; ++v) block_[v * n + s.slot] += static_cast<float>(s.k[v]);
+  membrane.addDiagonal(n, block_.data());
   double travel = 0;
   for (const PointStiffness& c : contact_) {
     if (travels_ && c.bar) travel += static_cast<double>(hoist_.dot(c.positive * hoist_));
@@ -276,6 +279,7 @@ void SolidLevel::apply(const float* in, float* out, bool positive) const {
     out[n + s.slot] += k(1) * a + k(3) * b + k(4) * c;
     out[2 * n + s.slot] += k(2) * a + k(4) * b + k(5) * c;
   }
+  membrane.addTangent(in, n, out);
   applyPoints(in, out, positive);
   for (const std::size_t f : fixed) out[f] = 0;
 }
@@ -296,8 +300,8 @@ void SolidLevel::applyInverseBlocks(const float* in, float* out) const {
 }
 
 void SolidLevel::estimateLambda() {
-  // Three steps from the last eigenvector: it changes little from one linearisation to the next.
-  int steps = 3;
+  // Two steps from the last eigenvector: it changes little from one linearisation to the next.
+  int steps = 2;
   if (power_.empty()) {
     steps = 10;
     power_.assign(size(), 0.0F);
@@ -357,20 +361,53 @@ void SolidLevel::smooth(bool fromZero, bool keepResidual) {
 }
 
 Eigen::MatrixXd SolidLevel::dense() const {
-  // Unknowns that are there; the rest of the lattice is padding.
-  std::vector<std::size_t> unknowns;
-  for (std::size_t i = 0; i < 3 * nodes(); ++i)
-    if (active[i] > 0) unknowns.push_back(i);
-  unknowns.push_back(3 * nodes());
-  const auto m = static_cast<Eigen::Index>(unknowns.size());
-  Eigen::MatrixXd K(m, m);
+  // Unknowns that are there; the rest of the lattice is padding. Nodes three apart share no cell: the columns of all
+  // nodes of one colour (i, j, k mod 3) come from one product.
+  const RowLattice& L = *lattice;
+  const std::size_t n = nodes();
+  struct Unknown {
+    std::size_t at = 0;
+    Eigen::Vector3i node = Eigen::Vector3i::Zero();
+  };
+  std::array<std::vector<std::size_t>, 81> colours;
+  std::vector<Unknown> unknowns;
+  for (int k = 0; k <= L.cells().z(); ++k)
+    for (int j = 0; j <= L.cells().y(); ++j) {
+      const RowLattice::Row& row = L.nodeRow(j, k);
+      for (int i = 0; i < row.length; ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::size_t at = c * n + row.offset + static_cast<std::size_t>(i);
+          if (!(active[at] > 0)) continue;
+          unknowns.push_back({at, {row.begin + i, j, k}});
+        }
+    }
+  std::sort(unknowns.begin(), unknowns.end(), [](const Unknown& a, const Unknown& b) { return a.at < b.at; });
+  for (std::size_t u = 0; u < unknowns.size(); ++u) {
+    const Eigen::Vector3i colour = unknowns[u].node.unaryExpr([](int i) { return i % 3; });
+    colours[27 * (unknowns[u].at / n) + static_cast<std::size_t>(colour.x() + 3 * colour.y() + 9 * colour.z())]
+        .push_back(u);
+  }
+  const auto m = static_cast<Eigen::Index>(unknowns.size()) + 1;
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(m, m);
   std::vector<float> in(size(), 0.0F), out(size());
-  for (Eigen::Index c = 0; c < m; ++c) {
-    in[unknowns[static_cast<std::size_t>(c)]] = 1.0F;
+  for (const std::vector<std::size_t>& colour : colours) {
+    if (colour.empty()) continue;
+    for (const std::size_t u : colour) in[unknowns[u].at] = 1.0F;
     apply(in.data(), out.data(), true);
-    in[unknowns[static_cast<std::size_t>(c)]] = 0.0F;
-    for (Eigen::Index row = 0; row < m; ++row)
-      K(row, c) = static_cast<double>(out[unknowns[static_cast<std::size_t>(row)]]);
+    for (const std::size_t u : colour) {
+      in[unknowns[u].at] = 0.0F;
+      for (std::size_t v = 0; v < unknowns.size(); ++v)
+        if ((unknowns[u].node - unknowns[v].node).cwiseAbs().maxCoeff() <= 1)
+          K(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(u)) = static_cast<double>(out[unknowns[v].at]);
+    }
+  }
+  if (travels_) {
+    in[3 * n] = 1.0F;
+    apply(in.data(), out.data(), true);
+    for (std::size_t v = 0; v < unknowns.size(); ++v)
+      K(m - 1, static_cast<Eigen::Index>(v)) = K(static_cast<Eigen::Index>(v), m - 1) =
+          static_cast<double>(out[unknowns[v].at]);
+    K(m - 1, m - 1) = static_cast<double>(out[3 * n]);
   }
   if (!(K(m - 1, m - 1) > 0)) {
     K.row(m - 1).setZero();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mechanics/contact/cell_kernel.h"
+#include "mechanics/contact/membrane.h"
 #include "mechanics/grid_transfer.h"
 #include "mechanics/row_lattice.h"
 
@@ -108,6 +109,7 @@ class SolidLevel {
   std::vector<std::size_t> fixed;           ///< positions in a field
   std::vector<SlotSpring> springs;          ///< at most one per slot
   std::vector<CarriedPoint> points;         ///< all surface points, as this level's cells carry them
+  Membrane membrane;                        ///< the skin on this level's cells, or empty
   std::vector<FollowerStiffness> followers;  ///< of the present linearisation, where this level is the finest
   std::vector<char> there;                  ///< per node slot: a filled cell touches it
   std::vector<float> active;                ///< 3 × nodes: 1 where a node is there and free, else 0
