@@ -134,6 +134,7 @@ std::optional<retraction::Capsule> readCapsule(JsonObject& scene, bool byDefault
     return scene.boolean("capsule", false) ? std::optional(capsule) : std::nullopt;
   JsonObject o = scene.object("capsule");
   capsule.tension_N_per_mm = positive(o, "tension_N_per_mm", o.number("tension_N_per_mm", capsule.tension_N_per_mm));
+  if (o.word("form", {"cells", "membrane"}, "cells") == "membrane") capsule.form = retraction::CapsuleForm::Membrane;
   o.finish();
   return capsule;
 }

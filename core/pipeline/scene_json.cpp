@@ -207,7 +207,8 @@ std::string toJson(const Scene& scene) {
   for (const auto& load : s.loads) j["loads"].push_back(std::visit(LoadToJson{scene.folder}, load));
   j["model"] = toJson(s.model);
   j["kinematics"] = nameOf(s.kinematics);
-  j["capsule"] = s.capsule ? Json{{"tension_N_per_mm", s.capsule->tension_N_per_mm}} : Json(false);
+  j["capsule"] = s.capsule ? Json{{"tension_N_per_mm", s.capsule->tension_N_per_mm},
+                               {"form", s.capsule->form == retraction::CapsuleForm::Membrane ? "membrane" : "cells"}} : Json(false);
   j["analysis"] = toJson(s.analysis);
   j["solver"] = solverToJson(s);
   if (scene.compare)

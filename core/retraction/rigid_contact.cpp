@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "mechanics/contact/contact_setup.h"
+#include "mechanics/contact/follower_loads.h"
 #include "mechanics/supports.h"
 #include "retraction/smooth_body.h"
 
@@ -149,23 +150,6 @@ std::optional<Eigen::Vector3d> lookOf(const Region& region) {
   return {};
 }
 
-/// Trilinear shares of the nodes of the cell that carries a point, with its place clamped into the cell: none negative.
-std::vector<std::pair<int, double>> sharesOf(const mechanics::VoxelMesh& mesh, const Eigen::Vector3d& p_m) {
-  std::vector<std::pair<int, double>> shares;
-  const auto cell = mechanics::carrierCell(mesh, p_m);
-  if (!cell) return shares;
-  const Eigen::Vector3d xi =
-      (p_m.cwiseQuotient(mesh.h_m()) - cell->cast<double>()).cwiseMax(0.0).cwiseMin(1.0);
-  for (int a = 0; a < 8; ++a) {
-    const Eigen::Vector3i corner(a & 1, a >> 1 & 1, a >> 2 & 1);
-    double w = 1;
-    for (int c = 0; c < 3; ++c) w *= corner[c] != 0 ? xi[c] : 1 - xi[c];
-    const Eigen::Vector3i at = *cell + corner;
-    if (w > 0) shares.emplace_back(mesh.nodeAt(at.x(), at.y(), at.z()), w);
-  }
-  return shares;
-}
-
 void addSupports(const Body& body, const Model& model, const Setup& setup, const MechanicsScene& scene,
                  const Samples& samples, ContactScene& out) {
   const mechanics::VoxelMesh mesh(out.problem.problem.body);
@@ -198,7 +182,7 @@ void addSupports(const Body& body, const Model& model, const Setup& setup, const
     for (std::size_t p = 0; p < samples.p_mm.size(); ++p) {
       const double seen_m2 = 1e-6 * samples.area_mm2[p] * std::max(0.0, samples.normal[p].dot(*look));
       if (seen_m2 == 0.0) continue;
-      for (const auto& [node, share] : sharesOf(mesh, out.problem.surface[p].p_m))
+      for (const auto& [node, share] : mechanics::sharesOf(mesh, out.problem.surface[p].p_m))
         supports.springs.push_back({node, share * k_N_m3 * seen_m2 * along});
     }
   }
@@ -229,6 +213,17 @@ void addFollowing(const Body& body, const Setup& setup, const Eigen::Vector3d& s
         for (const int node : f->nodes)
           p.bed.push_back({mesh.position_m(node) + shift_m, mechanics::faceNormal(f->face.side),
                            0.25 * mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm * f->area_m2});
+}
+
+/// The capsule as a stiffening of the cells that the surface passes through: its tension over the cell's height.
+std::vector<double> rindOf(const mechanics::VoxelBody& body, const std::vector<mechanics::SurfaceSample>& surface,
+                           const Capsule& capsule) {
+  const mechanics::VoxelMesh mesh(body);
+  std::vector<double> rind(body.E_Pa.size(), 0.0);
+  for (const mechanics::SurfaceSample& s : surface)
+    if (const auto cell = mechanics::carrierCell(mesh, s.p_m))
+      rind[body.cell(cell->x(), cell->y(), cell->z())] += 1e3 * capsule.tension_N_per_mm * s.area_m2 / body.h_m.prod();
+  return rind;
 }
 
 mechanics::RigidBar barOf(const Body& body, const Retractor& r, const Eigen::Vector3d& at_mm,
@@ -301,7 +296,10 @@ ContactScene contactScene(const Body& body, const Model& model, const Setup& set
   addFollowing(body, setup, shift_m, p);
   p.law = setup.kinematics == Kinematics::Linear ? mechanics::SolidLaw::Linear
                                                   : setup.law.value_or(mechanics::SolidLaw::Polynomial);
-  if (setup.capsule) p.skin = mechanics::Skin{1e3 * setup.capsule->tension_N_per_mm};
+  if (setup.capsule && setup.capsule->form == CapsuleForm::Membrane)
+    p.skin = mechanics::Skin{1e3 * setup.capsule->tension_N_per_mm};
+  else if (setup.capsule)
+    p.rind_Pa = rindOf(p.problem.body, p.surface, *setup.capsule);
   p.bar = barOf(body, bar, *bar.at_mm, shift_m);
   if (bar.travel_mm)
     p.travel_m = mmToM * *bar.travel_mm;

@@ -111,11 +111,17 @@ struct AnalysisSpec {
 /// How strain follows from displacement. Auto: linear where that is right to 0.2 mm, else hyperelastic.
 enum class Kinematics { Linear, Corotational, Hyperelastic, Auto };
 
-/// Glisson's capsule: a membrane that carries tension along the surface only.
+/// How the capsule is borne. Cells: by the cells that the surface passes through, in all directions. Membrane: in the
+/// plane of the surface, and in tension only; cells of a few millimetres then fold one by one under a bar, where the
+/// true capsule wrinkles finer than they are, so that soft livers take many more iterations or find no answer.
+enum class CapsuleForm { Cells, Membrane };
+
+/// Glisson's capsule: stiff skin of the liver.
 struct Capsule {
   /// Young's modulus times thickness. Default: porcine capsule, 8.2 MPa at small strain [umale2011characterization] times
   /// 30 µm, the lower end of 50 to 90 µm, as its curve is J-shaped.
   double tension_N_per_mm = 0.25;
+  CapsuleForm form = CapsuleForm::Cells;
 };
 
 /// All of a mechanics scene but its geometry and stiffness.

@@ -106,7 +106,7 @@ Scenes retractionScenes(const StabilityOptions&) {
   s.push_back({"displacement larger than the body", "marked invalid, no overlay", tooMuch});
   s.push_back({"cells turned inside out", "marked invalid, no overlay", inverted});
   s.push_back({"retractor on one voxel face", "total force kept", [](const Progress& p) {
-                 return forceKept("z+", bar({50, 30, 0}, 0.5, 0.5), p);
+                 return forceKept("z+", bar({50, 30, 0}, 1, 1), p);
                }});
   s.push_back({"retractor over the edge of the body", "total force kept", [](const Progress& p) {
                  return forceKept("z+", bar({100, 30, 0}, 10, 80), p);

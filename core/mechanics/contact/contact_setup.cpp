@@ -63,6 +63,9 @@ SolidLevel finestLevel(const ContactProblem& problem) {
     if (!(body.E_Pa[c] > 0)) continue;
     moduli.mu_Pa[c] = body.E_Pa[c] * lameMu(body.poisson);
     moduli.lambda_Pa[c] = body.E_Pa[c] * lameLambda(body.poisson);
+    if (problem.rind_Pa.empty()) continue;
+    moduli.mu_Pa[c] += problem.rind_Pa[c] * lameMu(problem.rindPoisson);
+    moduli.lambda_Pa[c] += problem.rind_Pa[c] * lameLambda(problem.rindPoisson);
   }
   SolidLevel level(std::move(moduli));
   const std::size_t n = level.nodes();

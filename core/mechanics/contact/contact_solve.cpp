@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "mechanics/contact/contact_energy.h"
 #include "mechanics/contact/contact_setup.h"
+#include "mechanics/contact/follower_loads.h"
 #include "mechanics/contact/newton.h"
 #include "mechanics/supports.h"
 
@@ -19,7 +20,8 @@ constexpr double pathTolerance = 1e-2;
 constexpr double farthest_m = 0.2;      ///< of travel
 constexpr double slipFall = 0.75;       ///< of the largest force: the bar slips
 constexpr double slipTravel_m = 12e-3;  ///< past the largest force without reaching it again
-constexpr int meetingTries = 40;        ///< travels tried for one force
+constexpr int meetingTries = 15;        ///< travels tried for one force
+constexpr int mostOnFinest = 300;        ///< iterations there, once the path is done
 constexpr double coarsePathCells = 1.4; ///< largest cells of the path over the bar's radius
 
 using State = ContactEnergy::State;
@@ -33,6 +35,8 @@ struct Solver {
   ContactEnergy energy;
   ContactSolution out;
   std::vector<std::vector<double>> loads;  ///< per level
+  int spent = 0;                           ///< iterations on the finest cells
+  std::vector<State> trail;                ///< of the path up to its end, of the level that is worked on
 
   Solver(const ContactProblem& p, const ContactOptions& o, const Progress& pr)
       : problem(p),
@@ -44,8 +48,10 @@ struct Solver {
 
   void useLevel(std::size_t l) { energy.setLoads(l, loads[l]); }
   NewtonRun converge(State& state, std::optional<double> force_N, double tolerance, int limit) {
+    if (energy.top() == 0 && energy.top() < pathLevel() && spent > mostOnFinest) return {};
     const NewtonRun run = minimise(hierarchy, energy, state, {force_N, tolerance, limit}, progress);
     out.newton += run.iterations;
+    if (energy.top() == 0) spent += run.iterations;
     out.inner += run.inner;
     return run;
   }
@@ -55,7 +61,9 @@ struct Solver {
     return value.barForce_N;
   }
   bool follow(State& state);
+  bool slips(double capacity_N);
   bool meetForce(State& state, double tolerance, NewtonRun& run);
+  bool meetForceFromTrail(State& state, double tolerance, NewtonRun& run);
   bool finish(State& state);
   bool loadInSteps(State& state);
   std::size_t pathLevel() const;
@@ -110,6 +118,7 @@ bool Solver::follow(State& state) {
       continue;
     }
     const double force = barForce(trial);
+    if (!has) trail.push_back(state);
     before = std::move(state);
     state = std::move(trial);
     extrapolate = true;
@@ -159,10 +168,10 @@ bool Solver::meetForce(State& state, double tolerance, NewtonRun& run) {
   double step = firstStep_m, best = 0, bestAt = state.s;
   for (int tries = 0; tries < meetingTries; ++tries) {
     State next = trial;
-    run = energy.passes(state, next) ? converge(next, {}, tolerance, 60) : NewtonRun{};
+    run = energy.passes(state, next) ? converge(next, {}, tolerance, 40) : NewtonRun{};
     if (!run.converged) {
-      // Closer to where it last went well.
-      if (std::abs(trial.s - state.s) < shortestStep_m) return false;
+      // Closer to where it last went well. The force has nowhere to rise: the bar slips.
+      if (std::abs(trial.s - state.s) < shortestStep_m) return below && !above && slips(best);
       const double closer = 0.5 * (trial.s + state.s);
       trial = state;
       trial.s = closer;
@@ -192,15 +201,34 @@ bool Solver::meetForce(State& state, double tolerance, NewtonRun& run) {
       }
       continue;
     }
-    if (below && (off + goal < slipFall * best || state.s > bestAt + slipTravel_m)) {
-      out.outcome = ContactOutcome::Slips;
-      out.capacity_N = best;
-      out.capacityExceeded = true;
-      return false;
-    }
+    if (below && (off + goal < slipFall * best || state.s > bestAt + slipTravel_m)) return slips(best);
     trial = state;
     trial.s += below ? step : -step;
     step = std::min(1.3 * step, longestStep_m);
+  }
+  return false;
+}
+
+bool Solver::slips(double capacity_N) {
+  out.outcome = ContactOutcome::Slips;
+  out.capacity_N = capacity_N;
+  out.capacityExceeded = true;
+  return false;
+}
+
+/// The force from the end of the path, or from the nearest state before it that is an equilibrium on these cells too.
+bool Solver::meetForceFromTrail(State& state, double tolerance, NewtonRun& run) {
+  const ContactOutcome before = out.outcome;
+  for (std::size_t back = 0; back <= std::min<std::size_t>(trail.size(), 2); ++back) {
+    State start = back == 0 ? state : trail[trail.size() - back];
+    if (meetForce(start, tolerance, run)) {
+      state = std::move(start);
+      return true;
+    }
+    if (out.outcome != before) {
+      state = std::move(start);
+      return false;
+    }
   }
   return false;
 }
@@ -209,11 +237,10 @@ bool Solver::meetForce(State& state, double tolerance, NewtonRun& run) {
 bool Solver::finish(State& state) {
   for (std::size_t l = energy.top();; --l) {
     if (l < energy.top()) {
-      State fine;
-      fine.u = hierarchy.prolonged(l, state.u);
-      fine.s = state.s;
+      state.u = hierarchy.prolonged(l, state.u);
+      if (trail.size() > 4) trail.erase(trail.begin(), trail.end() - 4);
+      for (State& earlier : trail) earlier.u = hierarchy.prolonged(l, earlier.u);
       useLevel(l);
-      state = std::move(fine);
     }
     const bool lastLevel = l == 0 || options.pathOnly;
     const double tolerance = lastLevel ? options.tolerance : std::max(1e-3, options.tolerance);
@@ -225,7 +252,7 @@ bool Solver::finish(State& state) {
     } else {
       // The coarse cells bore more than these do, or the force hardly rises with travel.
       out.outcome = ContactOutcome::Stopped;
-      if (!problem.force_N || !meetForce(state, tolerance, run)) {
+      if (!problem.force_N || !meetForceFromTrail(state, tolerance, run)) {
         out.solution.report.residual = run.residual;
         return false;
       }
@@ -271,13 +298,8 @@ void requireHeld(const ContactProblem& problem) {
   requireSupported(mesh, supports);
 }
 
-}  // namespace
-
-ContactSolution solveContact(const ContactProblem& problem, const ContactOptions& options, const Progress& progress) {
+ContactSolution solveOnce(const ContactProblem& problem, const ContactOptions& options, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  if (problem.bar && problem.force_N.has_value() == problem.travel_m.has_value())
-    throw BadArgument("solveContact: give either the force or the travel of the bar");
-  requireHeld(problem);
   Solver solver(problem, options, progress);
   State state;
   solver.useLevel(solver.pathLevel());
@@ -306,6 +328,48 @@ ContactSolution solveContact(const ContactProblem& problem, const ContactOptions
   report.tolerance = options.tolerance;
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return std::move(solver.out);
+}
+
+/// Pressures on faces whose rim moves have no potential: they act as dead loads that are turned after each solve, with
+/// Aitken's relaxation, until they no longer change.
+ContactSolution solveTurning(const ContactProblem& problem, const ContactOptions& options, const Progress& progress) {
+  constexpr int most = 60;
+  const VoxelMesh mesh(problem.problem.body);
+  ContactProblem dead = problem;
+  dead.pressures.clear();
+  NodalField base = problem.problem.f_N;
+  if (base.cols() == 0) base = NodalField::Zero(3, mesh.nodeCount());
+  NodalField forces = followerForces(mesh, problem.pressures, NodalField::Zero(3, mesh.nodeCount())), before;
+  double relaxation = 1;
+  ContactSolution s;
+  for (int turn = 0; turn < most; ++turn) {
+    dead.problem.f_N = base + forces;
+    s = solveOnce(dead, options, progress.part(static_cast<double>(turn) / most, (turn + 1.0) / most));
+    if (!s.solution.report.converged()) return s;
+    const NodalField change = followerForces(mesh, problem.pressures, s.solution.u_m) - forces;
+    if (change.norm() <= std::max(options.tolerance, 1e-6) * forces.norm()) return s;
+    if (turn > 0) {
+      const NodalField bend = change - before;
+      relaxation = std::clamp(-relaxation * before.cwiseProduct(bend).sum() / bend.squaredNorm(), 0.1, 2.0);
+    }
+    forces += relaxation * change;
+    before = change;
+  }
+  s.outcome = ContactOutcome::Stopped;
+  s.solution.report.status = SolveStatus::StoppedAtLimit;
+  return s;
+}
+
+}  // namespace
+
+ContactSolution solveContact(const ContactProblem& problem, const ContactOptions& options, const Progress& progress) {
+  if (problem.bar && problem.force_N.has_value() == problem.travel_m.has_value())
+    throw BadArgument("solveContact: give either the force or the travel of the bar");
+  requireHeld(problem);
+  const bool turning = !problem.pressures.empty() &&
+                       !haveClosedOrHeldRim(VoxelMesh(problem.problem.body), problem.pressures,
+                                            problem.problem.supports.fixations);
+  return turning ? solveTurning(problem, options, progress) : solveOnce(problem, options, progress);
 }
 
 }  // namespace glisson::mechanics

@@ -38,8 +38,10 @@ struct ContactProblem {
   Problem problem;  ///< E of a cell that the surface cuts: modulus times covered fraction; f_N: dead loads
   SolidLaw law = SolidLaw::Polynomial;
   std::vector<SurfaceSample> surface;
-  std::optional<Skin> skin;  ///< on the whole surface
-  std::vector<FollowerFace> pressures;  ///< together a closed surface, or one whose rim does not move
+  std::optional<Skin> skin;     ///< on the whole surface
+  std::vector<double> rind_Pa;  ///< per cell, x fastest: further Young's modulus of the surface's cells, or empty
+  double rindPoisson = 0.3;
+  std::vector<FollowerFace> pressures;  ///< that follow their faces
   std::vector<BedSample> bed;
   std::optional<RigidBar> bar;       ///< from anywhere behind its first touch; travel counts from there
   std::optional<double> force_N;     ///< on the bar along its hoist; or
