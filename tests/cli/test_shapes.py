@@ -66,6 +66,12 @@ class Outlines(InAFolder):
         left, right = rectangle(-16, 4, -10, 10, 10.0), rectangle(-4, 16, -10, 10, 10.0)
         self.assertPixels(self.measured([left, right], "CLOSEDPLANAR_XOR"), 640 - 40)
 
+    def test_a_region_drawn_twice_is_no_large_hole_without_a_word(self):
+        outer = rectangle(-16, 16, -10, 10, 10.0)
+        for inner in (rectangle(-14, 14, -8, 8, 10.0), rectangle(-12, 14, -9, 9, 10.0)):
+            self.said(self.measured([outer, inner]), "less than half", "twice")
+        self.silent_about(self.measured([outer, rectangle(-4, 4, -4, 4, 10.0)]), "less than half")
+
     def test_a_lobe_at_another_height_of_its_slice_counts_and_is_said(self):
         j = self.measured([rectangle(-16, 0, -10, 10, 10.0), rectangle(0, 16, -10, 10, 12.0)])
         self.assertPixels(j, 640)
@@ -285,6 +291,11 @@ class Places(InAFolder):
         self.assertEqual([s["n"] for s in j["slices"]], [160] * 4)
         self.assertAlmostEqual(j["pooled"]["mean_kPa"], 3.0, places=4)
         self.said(j, "unevenly", "10 to 19 mm")
+        sparse = outlines(self.folder / "sparse.dcm", [rectangle(-16, 16, -10, 10, z) for z in (0.0, 22.0, 31.0, 41.0)])
+        j = cli_json("measure", "--mre", self.folder / "mre", "--roi", sparse)
+        self.assertEqual([s["n"] for s in j["slices"]], [160, 160, 160])
+        self.said(j, "1 of 4", "hold no outline")
+        self.said(j, "1 of 4", "none of the image's slices")
         self.assertIn("unevenly", cli("convert", self.folder / "mre", self.folder / "o.nii", "--quiet", code=3).stderr)
 
 

@@ -54,7 +54,7 @@ TEST(MeanUncertainty, IsTheSpreadOfTheMeanOverRepeatedScans) {
     constexpr int scans = 60;
     Random random(5);
     for (int s = 0; s < scans; ++s) {
-      const Measurement m = measure({noisy(g, reach, random), StiffnessQuantity::Shear, {}, {}}, roi);
+      const Measurement m = measure({noisy(g, reach, random), StiffnessQuantity::Shear, {}, {}, {}, {}}, roi);
       sum += m.pooled.mean_kPa;
       squares += m.pooled.mean_kPa * m.pooled.mean_kPa;
       announced += m.uncertainty.se_kPa / scans;
@@ -82,7 +82,7 @@ TEST(MeanUncertainty, ConstantMapIsExactAndOneVoxelSaysNothing) {
 TEST(Measure, ErosionInMillimetresAndExclusion) {
   const image::Grid g = mreGrid();
   const image::Mask roi = disc(g, 30.0);
-  const StiffnessMap map{image::ScalarVolume(g, 2.0F), StiffnessQuantity::Shear, {}, {}};
+  const StiffnessMap map{image::ScalarVolume(g, 2.0F), StiffnessQuantity::Shear, {}, {}, {}, {}};
   MeasureOptions o;
   o.erosion_mm = 8.0;
   const double inner_mm2 = measure(map, roi, o).slices.front().statistics.area_mm2;
@@ -104,7 +104,7 @@ TEST(Measure, ErosionInMillimetresAndExclusion) {
 TEST(FillStiffness, ResamplingDoesNotBiasTheMean) {
   const image::Grid g = mreGrid();
   const image::Mask roi = disc(g, 30.0);
-  StiffnessMap map{image::ScalarVolume(g), StiffnessQuantity::Shear, {}, {}};
+  StiffnessMap map{image::ScalarVolume(g), StiffnessQuantity::Shear, {}, {}, {}, {}};
   for (std::size_t v = 0; v < roi.values.size(); ++v) map.values_kPa.values[v] = roi.values[v] != 0 ? 3.0F : 0.0F;
   image::Grid fine = g;
   fine.size = {70, 70, 12};
@@ -127,7 +127,7 @@ TEST(FillStiffness, ResamplingDoesNotBiasTheMean) {
 TEST(FillStiffness, Bounds) {
   const image::Grid g = mreGrid();
   const image::Mask roi = disc(g, 30.0);
-  StiffnessMap map{image::ScalarVolume(g, 3.0F), StiffnessQuantity::Shear, {}, {}};
+  StiffnessMap map{image::ScalarVolume(g, 3.0F), StiffnessQuantity::Shear, {}, {}, {}, {}};
   map.values_kPa.at(32, 30, 1) = 900.0F;
   map.values_kPa.at(20, 30, 1) = 1e-6F;
   const FilledStiffness filled = fillStiffness(map, roi, &roi, {.low_kPa = 0.2, .high_kPa = 50.0});

@@ -68,7 +68,8 @@ TEST(MeshFiles, numbersLieWhereTheHeaderSaysAndTheFrameIsNamed) {
   EXPECT_EQ(back, mesh.nodes_lps_mm);
   anatomy::TriangleMesh triangle;
   triangle.vertices_lps_mm = Eigen::Matrix3d::Identity();
-  triangle.triangles = Eigen::Vector3i(0, 1, 2);
+  triangle.triangles.resize(3, 1);
+  triangle.triangles << 0, 1, 2;
   writeVtp(folder / "s.vtp", triangle, {});
   EXPECT_THAT(readText(folder / "s.vtp"), AllOf(HasSubstr("Name=\"SPACE\""), HasSubstr("76 80 83 0")));
 }
