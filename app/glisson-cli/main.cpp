@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   app.add_flag("--json", context.json, "print one JSON object to stdout and nothing else there");
   app.add_flag("--quiet,-q", context.quiet, "no progress, no notes");
   app.add_flag("--verbose,-v", context.verbose, "say more on stderr");
-  app.add_flag("--strict", context.strict, "refuse what would give a warning (exit code 3): scan, measure, convert");
+  app.add_flag("--strict", context.strict, "refuse what would give a warning (exit code 3)");
   app.add_option("--threads", context.threads, "threads to use, 0 = one per core")->check(CLI::Range(0, 1024));
   CLI::Option* seed = app.add_option("--seed", context.seed, "seed of everything random");
   app.add_option("--output,-o", context.output, "folder or file to write to");
