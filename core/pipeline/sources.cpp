@@ -295,11 +295,32 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
   return out;
 }
 
+namespace {
+
+/// Where the named images are those of a series in one folder, and the named series is another one in the other folder.
+void tellContradiction(const OutlineNames& names, const std::vector<const dicom::ScanResult*>& scans, Diagnostics& said) {
+  OutlineNames images = names, series = names;
+  images.seriesUid.clear();
+  series.planes.clear();
+  for (std::size_t here = 0; scans.size() == 2 && here < 2; ++here) {
+    const dicom::ScanResult &holder = *scans[here], &other = *scans[1 - here];
+    const int drawn = outlinedSeries(holder, images), named = outlinedSeries(other, series);
+    if (drawn < 0 || named < 0 || outlinedSeries(holder, series) >= 0 || outlinedSeries(other, images) >= 0) continue;
+    said.add(DiagnosticCode::OutlineNamesContradict,
+             {{"named", static_cast<std::int64_t>(other.series[static_cast<std::size_t>(named)].number)},
+              {"series", static_cast<std::int64_t>(holder.series[static_cast<std::size_t>(drawn)].number)}});
+    return;
+  }
+}
+
+}  // namespace
+
 Diagnostics doubtsAboutOutline(const LoadedRoi& roi, const AnatomicalImage* mri, const LoadedStiffness* mre) {
   Diagnostics said;
   std::vector<const dicom::ScanResult*> scans;
   if (mri != nullptr && mri->scan) scans.push_back(mri->scan.get());
   if (mre != nullptr && mre->scan) scans.push_back(mre->scan.get());
+  tellContradiction(roi.names, scans, said);
   said.add(planesOffTheirImages(roi.names, scans, roi.mask ? "frames of the segmentation" : "contours"));
   if (!roi.names.empty() && mri != nullptr && mri->series >= 0 && outlinedSeries(*mri->scan, roi.names) < 0) {
     const std::int64_t taken = mri->scan->series[static_cast<std::size_t>(mri->series)].number;

@@ -413,6 +413,12 @@ class Outlines(Folder):
         self.assertEqual(chosen["arguments"]["series"], 3)
         against = self.measure("mre", "--mri", self.folder / "mri", "--role", "4=anatomical", roi=roi)
         self.assertIn("outlined-series-not-taken", self.codes(against, "warning"))
+        torn = pydicom.dcmread(roi)
+        study = torn.ReferencedFrameOfReferenceSequence[0].RTReferencedStudySequence[0]
+        study.RTReferencedSeriesSequence[0].SeriesInstanceUID = small.uid("series 401")
+        torn.save_as(self.folder / "torn.dcm", write_like_original=False)
+        answer = self.measure("mre", "--mri", self.folder / "mri", roi=self.folder / "torn.dcm")
+        self.assertIn("outline-names-contradict", self.codes(answer, "warning"))
         lost = write(self.folder / "elsewhere", 9, everywhere(100), "T1 gone", 3, **original)
         answer = self.measure("mre", "--mri", self.folder / "mri", roi=liver(self.folder / "lost.dcm", images=lost))
         self.assertIn("outlined-series-absent", self.codes(answer, "warning"))
