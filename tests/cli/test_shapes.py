@@ -270,6 +270,21 @@ class Places(InAFolder):
         self.assertIn("Offset", mha([m.replace("Offset = 1 2 3", "Offset = 1 2 3 4") for m in meta], code=3))
         self.assertIn("truncated", mha([m.replace("5 4 3", "5 4 4") for m in meta], code=3))
 
+    def test_lists_of_cells_that_contradict_themselves_are_refused(self):
+        points = "DATASET POLYDATA\nPOINTS 4 float\n0 0 0\n100 0 0\n0 100 0\n0 0 100\n"
+        old = "# vtk DataFile Version 3.0\nx\nASCII\n" + points + "POLYGONS 4 16\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
+        new = ("# vtk DataFile Version 5.1\nx\nASCII\n" + points + "POLYGONS 5 12\nOFFSETS vtktypeint64\n0 3 6 9 12\n"
+               "CONNECTIVITY vtktypeint64\n0 2 1 0 1 3 1 2 3 0 3 2\n")
+        for n, text in enumerate((old, new)):
+            file = self.folder / f"{n}.vtk"
+            file.write_text(text)
+            cli("agree", file, file, "--quiet")
+            for broken in (text[:-4], text.replace("0 3 2", "0 32"), text.replace("3 0 1 3", "30 1 3"),
+                           text.replace("POLYGONS 4 16", "POLYGONS 4 15"), text.replace("POLYGONS 5 12", "POLYGONS 5 14")):
+                if broken != text:
+                    file.write_text(broken)
+                    self.assertIn("list of cells", cli("agree", file, file, "--quiet", code=3).stderr)
+
     def test_rounded_positions_are_even_and_said(self):
         def scanned(heights):
             folder = self.folder / f"s{len(list(self.folder.iterdir()))}"
