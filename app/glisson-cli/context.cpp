@@ -80,7 +80,8 @@ void Context::print(const Json& object, const std::string& text) const {
     whole["diagnostics"] = diagnosticsJson({}, warnings);
   }
   if (json)
-    std::cout << whole.dump(1) << std::endl;
+    // Words of damaged files may be no text.
+    std::cout << whole.dump(1, ' ', false, Json::error_handler_t::replace) << std::endl;
   else
     std::cout << text << std::flush;
 }

@@ -17,6 +17,9 @@ int report(int code, const std::string& message) {
   std::string line = message;
   for (char& c : line)
     if (c == '\n' || c == '\r') c = ' ';
+  // Words of damaged files may be no text: what is no UTF-8 is replaced, as JSON does.
+  const std::string quoted = nlohmann::json(line).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  line = nlohmann::json::parse(quoted).get<std::string>();
   std::cerr << "glisson-cli: " << line << std::endl;
   return code;
 }
