@@ -31,7 +31,7 @@ void tellOtherScales(Measurement& m) {
 
 /// Many voxels of one largest value far above the others: a map's ceiling, or padding that nothing marks.
 void tellCeiling(const std::vector<double>& values_kPa, Measurement& m) {
-  constexpr double farAbove = 3.0, many = 0.01;
+  constexpr double farAbove = 6.0, many = 0.01;
   constexpr std::int64_t enough = 10;
   const auto there = std::count(values_kPa.begin(), values_kPa.end(), m.pooled.max_kPa);
   if (there < enough || static_cast<double>(there) < many * static_cast<double>(values_kPa.size()) ||
