@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "diagnostics_json.h"
 #include "verbs.h"
 
 namespace glisson::cli {
@@ -72,8 +73,15 @@ Progress Context::progress() const {
 }
 
 void Context::print(const Json& object, const std::string& text) const {
+  Json whole = object;
+  if (whole.contains("warnings") && !whole.contains("diagnostics")) {
+    const auto warnings = whole["warnings"].get<std::vector<std::string>>();
+    refuseIfStrict(*this, {}, warnings);
+    whole["diagnostics"] = diagnosticsJson({}, warnings);
+  }
   if (json)
-    std::cout << object.dump(1) << std::endl;
+    // Words of damaged files may be no text.
+    std::cout << whole.dump(1, ' ', false, Json::error_handler_t::replace) << std::endl;
   else
     std::cout << text << std::flush;
 }

@@ -17,6 +17,9 @@ int report(int code, const std::string& message) {
   std::string line = message;
   for (char& c : line)
     if (c == '\n' || c == '\r') c = ' ';
+  // Words of damaged files may be no text: what is no UTF-8 is replaced, as JSON does.
+  const std::string quoted = nlohmann::json(line).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  line = nlohmann::json::parse(quoted).get<std::string>();
   std::cerr << "glisson-cli: " << line << std::endl;
   return code;
 }
@@ -40,7 +43,7 @@ int main(int argc, char** argv) {
   app.add_flag("--json", context.json, "print one JSON object to stdout and nothing else there");
   app.add_flag("--quiet,-q", context.quiet, "no progress, no notes");
   app.add_flag("--verbose,-v", context.verbose, "say more on stderr");
-  app.add_flag("--strict", context.strict, "refuse what would give a warning (exit code 3): scan, measure, convert");
+  app.add_flag("--strict", context.strict, "refuse what would give a warning (exit code 3)");
   app.add_option("--threads", context.threads, "threads to use, 0 = one per core")->check(CLI::Range(0, 1024));
   CLI::Option* seed = app.add_option("--seed", context.seed, "seed of everything random");
   app.add_option("--output,-o", context.output, "folder or file to write to");

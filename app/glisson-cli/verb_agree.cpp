@@ -1,6 +1,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "diagnostics_json.h"
 #include "pipeline/readers.h"
 #include "verbs.h"
 
@@ -75,6 +76,7 @@ int agree(Arguments a, const Context& context) {
   if (study.stiffness) j["stiffness"] = overCases(study.stiffness, study.stiffnessLimits);
   for (const char* key : {"volume", "stiffness"})
     if (j.contains(key)) text << key << "  " << j[key].dump() << "\n";
+  refuseIfStrict(context, {}, study.warnings);
   j["warnings"] = study.warnings;
   for (const std::string& w : study.warnings) text << "warning: " << w << "\n";
   j["files"] = Json::array();

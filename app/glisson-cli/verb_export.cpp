@@ -1,6 +1,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "diagnostics_json.h"
 #include "pipeline/export.h"
 #include "verbs.h"
 
@@ -27,6 +28,10 @@ void addExport(CLI::App& app, Context& context) {
       if (!quantity->empty())
         request->quantity = *quantity == "shear" ? StiffnessQuantity::Shear : StiffnessQuantity::Youngs;
       const pipeline::Exported done = pipeline::exportFiles(*request, context.progress());
+      if (context.strict && !done.warnings.empty()) {
+        for (const auto& f : done.files) std::filesystem::remove(f);
+        refuseIfStrict(context, {}, done.warnings);
+      }
       Json j;
       j["formats"] = request->formats;
       j["files"] = Json::array();

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "diagnostics_json.h"
 #include "elastography/statistics.h"
 #include "image/io.h"
 #include "pipeline/phases.h"
@@ -67,7 +68,8 @@ int invert(Arguments a, const Context& context) {
   waveOptions.unwrapping = a.unwrap == "temporal"  ? inversion::Unwrapping::Temporal
                            : a.unwrap == "quality" ? inversion::Unwrapping::Quality
                                                    : inversion::Unwrapping::Auto;
-  if (!a.mask.empty()) waveOptions.mask = image::readMask(a.mask);
+  Diagnostics diagnostics;
+  if (!a.mask.empty()) waveOptions.mask = image::readMask(a.mask, 0, &diagnostics);
   a.options.filter = a.filter == "curl"   ? inversion::BulkFilter::Curl
                      : a.filter == "none" ? inversion::BulkFilter::None
                                           : inversion::BulkFilter::HighPass;
@@ -94,10 +96,14 @@ int invert(Arguments a, const Context& context) {
   if (!r.spread_kPa.values.empty()) j["spread"] = statistics(r, r.spread_kPa, a.confidence);
   j["stiffness"]["is"] = "|G*|, magnitude of the complex shear modulus";
   j["shear_stiffness"]["is"] = "density x wave speed squared";
-  j["warnings"] = phases.warnings;
-  for (const std::string& w : r.warnings) j["warnings"].push_back(w);
+  std::vector<std::string> warnings = phases.warnings;
+  for (const std::string& w : diagnostics.texts(Severity::Warning)) warnings.push_back(w);
+  warnings.insert(warnings.end(), r.warnings.begin(), r.warnings.end());
   if (const auto few = fewConfident(j["stiffness"]["n"].get<std::size_t>(), r.resolved, a.confidence, noise_rad))
-    j["warnings"].push_back(*few);
+    warnings.push_back(*few);
+  refuseIfStrict(context, diagnostics, warnings);
+  j["warnings"] = warnings;
+  j["diagnostics"] = diagnosticsJson(diagnostics, warnings);
   j["files"] = Json::array();
   if (!context.output.empty()) {
     for (const auto& file : pipeline::writeInversion(context.output, r)) j["files"].push_back(file.string());
@@ -107,7 +113,7 @@ int invert(Arguments a, const Context& context) {
   std::ostringstream text;
   for (const char* key : {"stiffness", "storage", "loss", "shear_stiffness"})
     text << key << "  " << j[key].dump() << "\n";
-  for (const auto& w : j["warnings"]) text << "warning: " << w.get<std::string>() << "\n";
+  for (const std::string& w : warnings) text << "warning: " << w << "\n";
   for (const auto& f : j["files"]) text << "written " << f.get<std::string>() << "\n";
   context.print(j, text.str());
   return Ok;

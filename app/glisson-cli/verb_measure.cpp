@@ -72,6 +72,13 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& from) 
   to.insert(to.end(), from.begin(), from.end());
 }
 
+/// The warnings but for the texts of notes.
+std::vector<std::string> withoutNotes(std::vector<std::string> warnings, const Diagnostics& diagnostics) {
+  for (const Diagnostic& d : diagnostics)
+    if (d.severity() == Severity::Note) std::erase(warnings, d.text());
+  return warnings;
+}
+
 /// Where nothing can be measured, what is odd about the region's place is the likely reason.
 elastography::Measurement measured(const elastography::StiffnessMap& map, const elastography::MappedRoi& mapped,
                                    const elastography::MeasureOptions& options) {
@@ -122,7 +129,7 @@ int measure(const Arguments& a, const Context& context) {
   Diagnostics diagnostics = mre.diagnostics;
   diagnostics.add(roi.diagnostics);
   if (mri) diagnostics.add(mri->diagnostics);
-  if (mri) append(together, mri->diagnostics.texts(Severity::Warning));
+  if (mri) append(together, withoutNotes(mri->warnings, mri->diagnostics));
   const Diagnostics doubts = pipeline::doubtsAboutOutline(roi, mri ? &*mri : nullptr, &mre);
   diagnostics.add(doubts);
   append(together, doubts.texts());

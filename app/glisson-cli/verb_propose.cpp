@@ -1,6 +1,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "diagnostics_json.h"
 #include "image/io.h"
 #include "pipeline/sources.h"
 #include "roi/contour_io.h"
@@ -25,6 +26,15 @@ int propose(const Arguments& a, const Context& context) {
   Eigen::Vector3d seed_lps(a.seed[0], a.seed[1], a.seed[2]);
   if (a.index) seed_lps = in.volume.grid.indexToLps(seed_lps);
   const roi::Proposal p = roi::propose(in.volume, seed_lps, a.options, progress.part(0.3, 1.0));
+  std::vector<std::string> warnings = in.warnings;
+  warnings.insert(warnings.end(), p.notes.begin(), p.notes.end());
+  Diagnostics diagnostics = in.diagnostics;
+  Diagnostics own;
+  own.add(DiagnosticCode::ProposalOnly);
+  if (p.touchesBorder) own.add(DiagnosticCode::ProposalAtBorder);
+  diagnostics.add(own);
+  refuseIfStrict(context, diagnostics, warnings);
+  for (const std::string& w : own.texts()) warnings.push_back(w);
   std::size_t polygons = 0;
   if (image::isVolumeFile(context.output)) {
     image::writeVolume(context.output, p.mask);
@@ -40,15 +50,13 @@ int propose(const Arguments& a, const Context& context) {
   Json j = {{"volume_mL", p.volume_mL}, {"intensities", {p.low, p.high}}, {"touches_border", p.touchesBorder}};
   j["seed_lps_mm"] = {seed_lps.x(), seed_lps.y(), seed_lps.z()};
   if (polygons > 0) j["polygons"] = polygons;
-  j["warnings"] = in.warnings;
-  for (const std::string& note : p.notes) j["warnings"].push_back(note);
-  j["warnings"].push_back("a proposal to be corrected by hand, not a result");
-  if (p.touchesBorder) j["warnings"].push_back("the proposal touches the border of the image: cut off, or leaked");
+  j["warnings"] = warnings;
+  j["diagnostics"] = diagnosticsJson(diagnostics, warnings);
   j["files"] = {context.output.string()};
   std::ostringstream text;
   text << p.volume_mL << " mL of intensities " << p.low << " to " << p.high << " written to " << context.output.string()
        << "\n";
-  for (const auto& w : j["warnings"]) text << "warning: " << w.get<std::string>() << "\n";
+  for (const std::string& w : warnings) text << "warning: " << w << "\n";
   context.print(j, text.str());
   return Ok;
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "anatomy/detail/surface_formats.h"
@@ -47,12 +46,19 @@ class Places {
 
 enum class Walls { KeepOne, CancelOpposite };
 
-/// Triangles without area go, so do points that none names. Of triangles with the same corners one stays, or, where two
-/// of them are turned against each other (the wall between bodies that touch), none.
+/// Triangles with the same corners: the first of them, and whether another one is turned against it.
+struct SameCorners {
+  Eigen::Vector3i first;
+  bool turned = false, against = false;
+};
+
+/// Triangles without area go, so do points that none names. Of triangles with the same corners the first stays (one shell
+/// of a surface that is stored twice), or, where two of them are turned against each other (the wall between bodies that
+/// touch), none.
 TriangleMesh tidied(const TriangleMesh& mesh, double within_mm, Walls walls) {
   Places places(within_mm);
   std::vector<int> to(static_cast<std::size_t>(mesh.vertices_lps_mm.cols()), -1);
-  std::map<std::array<int, 3>, std::array<std::optional<Eigen::Vector3i>, 2>> kept;  // by corners: either turn
+  std::map<std::array<int, 3>, SameCorners> kept;
   std::vector<std::array<int, 3>> order;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     Eigen::Vector3i c = mesh.triangles.col(t);
@@ -65,16 +71,16 @@ TriangleMesh tidied(const TriangleMesh& mesh, double within_mm, Walls walls) {
     std::array<int, 3> key{c[0], c[1], c[2]};
     std::sort(key.begin(), key.end());
     const bool turned = (c[0] < c[1]) + (c[1] < c[2]) + (c[2] < c[0]) == 1;
-    auto& there = kept[key];
-    if (!there[0] && !there[1]) order.push_back(key);
-    std::optional<Eigen::Vector3i>& turn = turned ? there[1] : there[0];
-    if (!turn) turn = c;
+    const auto [there, isNew] = kept.try_emplace(key, SameCorners{c, turned, false});
+    if (isNew)
+      order.push_back(key);
+    else
+      there->second.against = there->second.against || there->second.turned != turned;
   }
   std::vector<Eigen::Vector3i> triangles;
   for (const auto& key : order) {
-    const auto& [one, other] = kept[key];
-    if (one && other && walls == Walls::CancelOpposite) continue;
-    triangles.push_back(one ? *one : *other);
+    const SameCorners& same = kept.at(key);
+    if (!same.against || walls == Walls::KeepOne) triangles.push_back(same.first);
   }
   std::vector<int> used(places.points.size(), -1);
   TriangleMesh out;

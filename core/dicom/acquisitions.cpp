@@ -88,28 +88,42 @@ class Partners {
   /// The series of that role that goes with the stiffness, -1 where there is none.
   int find(SeriesRole role, Diagnostics& said) const {
     std::vector<int> all, hand;
+    std::set<int> byOrder;  // those whose stiffness only the order of series tells
+    int otherStudy = -1;
     for (int i = 0; i < e_.size(); ++i) {
       const Series& s = e_.series(i);
-      if (s.role != role || s.error || i == stiffness_ || !e_.together(i, stiffness_)) continue;
+      if (s.role != role || s.error || i == stiffness_) continue;
+      if (!e_.together(i, stiffness_)) {
+        if (s.patientKey == e_.series(stiffness_).patientKey) otherStudy = i;
+        continue;
+      }
       all.push_back(i);
       if (setByHand(s)) hand.push_back(i);
     }
-    if (all.empty()) return -1;
     const std::string what = name(role);
+    if (all.empty() && otherStudy >= 0 && role == SeriesRole::Confidence)
+      said.add(DiagnosticCode::PartnerElsewhere, {{"role", what},
+                                                  {"series", numberOf(e_, otherStudy)},
+                                                  {"stiffness", numberOf(e_, stiffness_)},
+                                                  {"tie", std::string("another study")}});
+    if (all.empty()) return -1;
     std::vector<int> mine = hand;
     if (hand.empty())
       for (const int c : all) {
-        const std::vector<int> fit = bestFor(e_, c, anchorsWith(c)).fit;
-        if (std::find(fit.begin(), fit.end(), stiffness_) != fit.end() && !firstAgainst(e_, stiffness_, c))
-          mine.push_back(c);
+        const Chosen own = bestFor(e_, c, anchorsWith(c));
+        if (std::find(own.fit.begin(), own.fit.end(), stiffness_) == own.fit.end() || firstAgainst(e_, stiffness_, c))
+          continue;
+        mine.push_back(c);
+        if (own.last == Tie::Order) byOrder.insert(c);
       }
     if (mine.empty()) {
       elsewhere(all, what, said);
       return -1;
     }
     // The order of series tells acquisitions apart, not two products of one.
-    const Chosen chosen = bestFor(e_, stiffness_, mine, anchors_.size() > 1);
+    Chosen chosen = bestFor(e_, stiffness_, mine, anchors_.size() > 1);
     const int taken = chosen.fit.front();
+    if (byOrder.count(taken) > 0 && !chosen.last) chosen.last = Tie::Order;
     for (const int other : chosen.fit)
       if (stem(e_.series(other)) != stem(e_.series(taken))) {
         ambiguous(chosen.fit, what, said);
@@ -228,6 +242,7 @@ void addRest(const Evidence& e, std::vector<Acquisition>& all) {
       if (role == SeriesRole::Confidence && a.confidence >= 0) return false;
       return std::all_of(members.begin(), members.end(), [&](int m) {
         if (!e.together(m, i)) return false;
+        if (stem(e.series(m)) == stem(e.series(i))) return true;  // time steps and directions of one series
         for (const Tie tie : ties)
           if ((detail::strong(tie) || tie == Tie::Number) && e.judge(tie, m, i) != Verdict::Unknown)
             return e.judge(tie, m, i) == Verdict::Same;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 #include "base/error.h"
@@ -39,8 +40,9 @@ double factorOf(const std::string& unit) {
 
 /// A stored value as the pixels count: files write signed ones as unsigned where the attribute's VR is ambiguous.
 double asStored(double value, const ImageHeader& h) {
-  if (h.kind != PixelKind::Integer || !h.isSigned || h.bitsAllocated > 16) return value;
-  return value > 32767.0 && value < 65536.0 ? value - 65536.0 : value;
+  if (h.kind != PixelKind::Integer || !h.isSigned || h.bitsStored > 16) return value;
+  const double all = std::exp2(h.bitsStored);
+  return value >= 0.5 * all && value < all ? value - all : value;
 }
 
 std::optional<double> limit(DcmItem& item, const DcmTagKey& integer, const DcmTagKey& real) {
@@ -48,12 +50,25 @@ std::optional<double> limit(DcmItem& item, const DcmTagKey& integer, const DcmTa
   return value ? value : number(item, integer);
 }
 
-std::vector<double> tableOf(DcmItem& item) {
+/// Tables of more than 64 KiB stand as raw bytes in explicit encodings.
+std::vector<double> tableOf(DcmItem& item, bool bigEndian) {
   const Float64* values = nullptr;
   unsigned long count = 0;
-  if (item.findAndGetFloat64Array(DCM_RealWorldValueLUTData, values, &count).bad() || values == nullptr) return {};
-  if (count > largestTable) throw BadInput(nameOf(DCM_RealWorldValueLUTData) + " has too many entries");
-  std::vector<double> table(values, values + count);
+  DcmElement* element = nullptr;
+  if (item.findAndGetElement(DCM_RealWorldValueLUTData, element).bad() || element == nullptr) return {};
+  std::vector<double> table;
+  Uint8* raw = nullptr;
+  const std::size_t bytes = element->getLength();
+  if (item.findAndGetFloat64Array(DCM_RealWorldValueLUTData, values, &count).good() && values != nullptr) {
+    if (count > largestTable) throw BadInput(nameOf(DCM_RealWorldValueLUTData) + " has too many entries");
+    table.assign(values, values + count);
+  } else if (!bigEndian && bytes % sizeof(double) == 0 && bytes <= sizeof(double) * largestTable &&
+             element->getUint8Array(raw).good() && raw != nullptr) {
+    table.resize(bytes / sizeof(double));
+    std::memcpy(table.data(), raw, bytes);
+  } else if (bytes > 0) {
+    throw BadInput(nameOf(DCM_RealWorldValueLUTData) + " cannot be read as a table of numbers");
+  }
   for (const double v : table)
     if (!std::isfinite(v)) throw BadInput(nameOf(DCM_RealWorldValueLUTData) + " holds a value that is not finite");
   return table;
@@ -89,7 +104,7 @@ std::optional<MapItem> readItem(DcmItem& item, const ImageHeader& h) {
     first = asStored(*first, h);
     last = asStored(*last, h);
   }
-  map.segment.table = tableOf(item);
+  map.segment.table = tableOf(item, h.layout.bigEndian);
   if (!map.segment.table.empty()) {
     if (!first) return std::nullopt;
     map.segment.first = *first;
@@ -114,12 +129,15 @@ std::optional<MapItem> readItem(DcmItem& item, const ImageHeader& h) {
   return map;
 }
 
-std::vector<MapItem> itemsOf(DcmItem* mapping, const ImageHeader& h) {
+/// Items that give no scale are left out, and doubted.
+std::vector<MapItem> itemsOf(DcmItem* mapping, const ImageHeader& h, Frame& frame) {
   std::vector<MapItem> items;
   if (mapping == nullptr) return items;
   for (unsigned long n = 0; n < itemCount(*mapping, DCM_RealWorldValueMappingSequence); ++n)
     if (auto map = readItem(*itemOf(*mapping, DCM_RealWorldValueMappingSequence, n), h))
       items.push_back(std::move(*map));
+    else
+      frame.scaleDoubt = ScaleDoubt::NoScale;
   return items;
 }
 
@@ -207,7 +225,7 @@ void readValues(DcmItem& transformation, DcmItem* mapping, Frame& frame, ImageHe
   if (small != "us" && small != "normalized" && small != "unspecified" && small != "1")
     frame.unit = canonicalUnit(type);
 
-  std::vector<MapItem> items = itemsOf(mapping, header), stiffness;
+  std::vector<MapItem> items = itemsOf(mapping, header, frame), stiffness;
   if (items.empty()) return;
   std::copy_if(items.begin(), items.end(), std::back_inserter(stiffness),
                [](const MapItem& item) { return item.ofStiffness(); });
@@ -224,7 +242,7 @@ void readValues(DcmItem& transformation, DcmItem* mapping, Frame& frame, ImageHe
   if (!stiffness.empty()) {
     const bool other = slope && !(frame.rescale == Rescale{}) && !agree(stiffness.front(), frame.rescale, {});
     useMap(std::move(stiffness), frame, header);
-    if (other && frame.scaleDoubt == ScaleDoubt::None) frame.scaleDoubt = ScaleDoubt::MapUsed;
+    if (other && frame.scaleDoubt != ScaleDoubt::MapsDisagree) frame.scaleDoubt = ScaleDoubt::MapUsed;
     return;
   }
   if (!slope) {

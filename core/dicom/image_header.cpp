@@ -1,6 +1,7 @@
 #include "dicom/image_header.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -178,10 +179,10 @@ void readAcquisition(DcmDataset& data, ImageHeader& h) {
   addReferences(data, h.references);
   if (DcmItem* shared = itemOf(data, DCM_SharedFunctionalGroupsSequence)) addReferences(*shared, h.references);
   if (DcmItem* frame = itemOf(data, DCM_PerFrameFunctionalGroupsSequence)) addReferences(*frame, h.references);
-  try {
-    h.privateScale = number(data, DcmTagKey(0x2005, 0x100E));
-  } catch (const BadInput&) {
-  }
+  const std::string scale = privateText(data, 0x2005, 0x0E, "Philips MR Imaging DD 001");
+  double factor = 0.0;
+  const auto [end, problem] = std::from_chars(scale.data(), scale.data() + scale.size(), factor);
+  if (problem == std::errc() && end == scale.data() + scale.size() && std::isfinite(factor)) h.privateScale = factor;
 }
 
 /// Whether the pixels may hold text about the patient: it says so, or it is a picture of a screen that does not deny

@@ -39,6 +39,7 @@ enum class ScaleDoubt {
   None,
   MapUsed,       ///< rescale and map differ; the map is used: the only one with a unit
   RescaleUsed,   ///< they differ; the rescale is used
+  NoScale,       ///< a map gives neither slope nor table
   MapsDisagree,  ///< two maps of one quantity give different values: there is no telling
 };
 

@@ -389,7 +389,7 @@ std::optional<FileLayout> plainLayout(ByteSource& source) {
   return layout;
 }
 
-ImageHeader readHeaderSafely(const fs::path& file, std::unique_ptr<IsolatedFile>* keep) {
+std::optional<ImageHeader> readPlainHeader(const fs::path& file) {
   try {
     ByteSource source(file);
     if (const auto layout = plainLayout(source)) return readImageHeader(file, source, *layout);
@@ -398,6 +398,11 @@ ImageHeader readHeaderSafely(const fs::path& file, std::unique_ptr<IsolatedFile>
   } catch (const std::bad_alloc&) {
     refuse("asks for more memory than there is");
   }
+  return std::nullopt;
+}
+
+ImageHeader readHeaderSafely(const fs::path& file, std::unique_ptr<IsolatedFile>* keep) {
+  if (auto plain = readPlainHeader(file)) return *std::move(plain);
   auto isolated = std::make_unique<IsolatedFile>(file);
   ImageHeader h = isolated->header();
   if (keep != nullptr) *keep = std::move(isolated);

@@ -76,4 +76,7 @@ std::optional<FileLayout> plainLayout(ByteSource& source);
 /// keep: where the process that parsed the file is put, to decode its pixels; stays empty where it was parsed here.
 ImageHeader readHeaderSafely(const std::filesystem::path& file, std::unique_ptr<IsolatedFile>* keep = nullptr);
 
+/// The same of a plain file only; nothing for others. May be called from several threads at a time.
+std::optional<ImageHeader> readPlainHeader(const std::filesystem::path& file);
+
 }  // namespace glisson::dicom

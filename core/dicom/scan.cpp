@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
-#include <set>
+#include <optional>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "dicom/archive.h"
 #include "dicom/directory.h"
@@ -137,27 +138,61 @@ void dropCopies(std::vector<ImageHeader>& headers, std::vector<SkippedFile>& ski
 
 namespace {
 
+/// What a file gave: its header, or why there is none; neither where a reader process has to parse it.
+struct Read {
+  std::optional<ImageHeader> header;
+  std::optional<RefusedFile> refused;
+};
+
+/// Calls take(file, read) for each file in order; plain files are parsed by several threads at a time.
+template <typename Take>
+void readHeaders(const std::vector<fs::path>& files, const Progress& progress, const Take& take) {
+  constexpr std::size_t atOnce = 512, chunk = 16;
+  for (std::size_t first = 0; first < files.size(); first += atOnce) {
+    progress.report(static_cast<double>(first) / static_cast<double>(files.size()), "reading image headers");
+    std::vector<Read> reads(std::min(atOnce, files.size() - first));
+    const auto attempt = [&](std::size_t n, const auto& how) {
+      try {
+        how(reads[n], files[first + n]);
+      } catch (const RefusedFile& e) {
+        reads[n].refused = e;
+      } catch (const BadInput& e) {
+        reads[n].refused.emplace().reason = e.what();
+      }
+    };
+    parallelChunks(reads.size(), chunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n)
+        attempt(n, [](Read& read, const fs::path& file) {
+          if (lowerCase(file.filename().string()) == "dicomdir")
+            throw BadInput("is a DICOMDIR index; the files are read directly");
+          read.header = readPlainHeader(file);
+        });
+    });
+    for (std::size_t n = 0; n < reads.size(); ++n) {
+      if (!reads[n].header && !reads[n].refused) {
+        progress.check();
+        attempt(n, [](Read& read, const fs::path& file) { read.header = readHeaderSafely(file); });
+      }
+      take(files[first + n], reads[n]);
+    }
+  }
+}
+
 ScanResult scanFiles(const std::vector<fs::path>& files, ScanResult result, const Progress& progress) {
   std::map<std::string, std::vector<ImageHeader>> bySeries;
   std::map<std::string, std::vector<fs::path>> refused;
-  for (std::size_t n = 0; n < files.size(); ++n) {
-    const fs::path& file = files[n];
-    if (n % 16 == 0)
-      progress.report(static_cast<double>(n) / static_cast<double>(files.size()), "reading image headers");
-    try {
-      if (lowerCase(file.filename().string()) == "dicomdir")
-        throw BadInput("is a DICOMDIR index; the files are read directly");
-      ImageHeader header = readHeaderSafely(file);
-      bySeries[header.seriesUid].push_back(std::move(header));
-    } catch (const RefusedFile& e) {
-      result.skipped.push_back({file, e.reason == "is not a DICOM file" && looksLikeZip(file)
-                                          ? "is a ZIP archive; open it by itself"
-                                          : e.reason});
-      if (!e.seriesUid.empty()) refused[e.seriesUid].push_back(file);
-    } catch (const BadInput& e) {
-      result.skipped.push_back({file, e.what()});
+  readHeaders(files, progress, [&](const fs::path& file, Read& read) {
+    if (read.header) {
+      const std::string uid = read.header->seriesUid;
+      bySeries[uid].push_back(*std::move(read.header));
+      return;
     }
-  }
+    const RefusedFile& e = *read.refused;
+    result.skipped.push_back({file, e.reason == "is not a DICOM file" && looksLikeZip(file)
+                                        ? "is a ZIP archive; open it by itself"
+                                        : e.reason});
+    if (!e.seriesUid.empty()) refused[e.seriesUid].push_back(file);
+  });
 
   for (auto& [uid, headers] : bySeries) {
     dropCopies(headers, result.skipped);

@@ -53,11 +53,18 @@ void takeUnit(const std::vector<SliceFacts>& slices, Series& series) {
 
 void takeQuantity(const std::vector<SliceFacts>& slices, Series& series) {
   std::set<std::string> names;
+  std::size_t without = 0;
   for (const SliceFacts& s : slices) {
-    if (!s.frame->quantity) continue;
+    if (!s.frame->quantity) {
+      ++without;
+      continue;
+    }
     series.quantity = s.frame->quantity;
     names.insert(inWords(*s.frame->quantity));
   }
+  if (without > 0 && series.quantity && *series.quantity != MapQuantity::ShearModulus)
+    series.noScale = std::to_string(without) + " of its " + std::to_string(slices.size()) +
+                     " slices do not say what they hold, the others hold " + *names.begin();
   if (names.size() > 1) series.noScale = "its slices hold different quantities: " + *names.begin() + " and others";
 }
 
@@ -73,6 +80,7 @@ void takeScale(const std::vector<SliceFacts>& slices, Series& series) {
   }
   if (doubts.count(ScaleDoubt::MapsDisagree) > 0)
     series.noScale = "its real-world value maps give different values for one stored value";
+  if (doubts.count(ScaleDoubt::NoScale) > 0) tell(series, DiagnosticCode::MapWithoutScale, {});
   if (doubts.count(ScaleDoubt::MapUsed) > 0)
     tell(series, DiagnosticCode::ScalesDiffer,
          {{"used", std::string("map")}, {"because", std::string("alone names a unit of stiffness")}});

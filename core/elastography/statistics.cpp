@@ -14,6 +14,35 @@ namespace {
 
 constexpr double leastPlausible_kPa = 0.5, mostPlausible_kPa = 15.0;  // shear modulus of a liver
 
+/// Slices whose median is another order of magnitude than that of all: of another unit or scale than the others.
+void tellOtherScales(Measurement& m) {
+  constexpr double another = 10.0;
+  constexpr std::size_t enough = 20;
+  std::string slices;
+  for (const SliceStatistics& s : m.slices) {
+    const double ratio = s.statistics.median_kPa / m.pooled.median_kPa;
+    if (s.statistics.n >= enough && (ratio > another || ratio < 1.0 / another))
+      slices += (slices.empty() ? "" : ", ") + std::to_string(s.slice);
+  }
+  if (slices.empty()) return;
+  m.diagnostics.add(DiagnosticCode::SlicesOfAnotherScale, {{"slices", slices}, {"median_kPa", m.pooled.median_kPa}});
+  m.warnings.push_back(m.diagnostics.texts().back());
+}
+
+/// Many voxels of one largest value far above the others: a map's ceiling, or padding that nothing marks.
+void tellCeiling(const std::vector<double>& values_kPa, Measurement& m) {
+  constexpr double farAbove = 6.0, many = 0.01;
+  constexpr std::int64_t enough = 10;
+  const auto there = std::count(values_kPa.begin(), values_kPa.end(), m.pooled.max_kPa);
+  if (there < enough || static_cast<double>(there) < many * static_cast<double>(values_kPa.size()) ||
+      m.pooled.max_kPa < farAbove * m.pooled.median_kPa)
+    return;
+  m.diagnostics.add(DiagnosticCode::ValuesAtCeiling, {{"voxels", static_cast<std::int64_t>(there)},
+                                                      {"of", static_cast<std::int64_t>(values_kPa.size())},
+                                                      {"kPa", m.pooled.max_kPa}});
+  m.warnings.push_back(m.diagnostics.texts().back());
+}
+
 void warn(Measurement& m) {
   const double shearPerUnit = m.shear_mean_kPa / m.pooled.mean_kPa;
   const double shearMedian_kPa = m.pooled.median_kPa * shearPerUnit;
@@ -41,6 +70,7 @@ void warn(Measurement& m) {
                                                           {"of", static_cast<std::int64_t>(before)}});
     m.warnings.push_back(m.diagnostics.texts().back());
   }
+  tellOtherScales(m);
 }
 
 image::Mask innerRegion(const image::Mask& roi, const MeasureOptions& options) {
@@ -203,7 +233,7 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
                    " have no confidence value, " + std::to_string(m.notPositive) + " are not positive, " +
                    std::to_string(m.notFinite) +
                    " are not finite; check the region, or lower the confidence threshold");
-  m.pooled = statisticsOf(std::move(all), voxelArea_mm2);
+  m.pooled = statisticsOf(all, voxelArea_mm2);
   m.pooled.n_before_mask = before;
   m.uncertainty = meanUncertainty(map.values_kPa, counts);
   m.areaWeightedMean_kPa = weighted / weights;
@@ -212,6 +242,7 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
   m.shear_mean_kPa = shear ? mean_kPa : toShear(YoungsModulus::fromKPa(mean_kPa), options.poisson).kPa();
   m.youngs_mean_kPa = shear ? toYoungs(ShearModulus::fromKPa(mean_kPa), options.poisson).kPa() : mean_kPa;
   warn(m);
+  tellCeiling(all, m);
   return m;
 }
 

@@ -97,12 +97,17 @@ Inputs loadInputs(const Scene& scene, const Progress& progress) {
   if (g.kind == GeometrySpec::Kind::Mask) {
     in.liver = readRegion(g.file, g.label, surfaceCell_mm(g), in.warnings, &in.diagnostics);
     clock.note("read-roi");
-    if (needs.mriValues && !g.background.empty()) in.mri = loadImage(g.background, progress).volume;
+    if (needs.mriValues && !g.background.empty()) {
+      AnatomicalImage background = loadImage(g.background, progress);
+      take(in, background);
+      in.mri = std::move(background.volume);
+    }
     if (needs.mriValues) clock.note("read-mri");
   }
   if (needs.map) {
     LoadedStiffness map =
         loadStiffness(scene.material.map, {scene.material.quantity, scene.material.unit, {}}, progress);
+    take(in, map);
     in.stiffness = std::move(map.map);
     clock.note("read-map");
   }

@@ -142,7 +142,8 @@ Diagnostics planesOffTheirImages(const OutlineNames& names, const std::vector<co
   std::unordered_map<std::string, Place> places;
   for (const dicom::ScanResult* scan : scans)
     for (const dicom::Series& s : scan->series)
-      if (!s.error && s.frames.empty() && static_cast<int>(s.sopInstanceUids.size()) == s.grid.size.z())
+      if ((!s.error || !s.unevenSlices_mm.empty()) && s.frames.empty() &&
+          static_cast<int>(s.sopInstanceUids.size()) == s.grid.size.z())
         for (int k = 0; k < s.grid.size.z(); ++k)
           places.emplace(s.sopInstanceUids[static_cast<std::size_t>(k)], Place{&s, k});
   std::int64_t count = 0;
@@ -150,10 +151,13 @@ Diagnostics planesOffTheirImages(const OutlineNames& names, const std::vector<co
   for (const NamedPlane& plane : names.planes) {
     const auto found = places.find(plane.sopInstanceUid);
     if (found == places.end()) continue;
-    const image::Grid& grid = found->second.series->grid;
+    const dicom::Series& series = *found->second.series;
+    const image::Grid& grid = series.grid;
+    const auto slice = static_cast<std::size_t>(found->second.slice);
     const double slack_mm = std::min(0.5, 0.5 * grid.spacing_mm.z());
-    const double away_mm =
-        std::abs(grid.lpsToIndex(plane.point_lps_mm).z() - found->second.slice) * grid.spacing_mm.z();
+    const double height_mm = series.unevenSlices_mm.empty() ? found->second.slice * grid.spacing_mm.z()
+                                                            : series.unevenSlices_mm[slice];
+    const double away_mm = std::abs(grid.lpsToIndex(plane.point_lps_mm).z() * grid.spacing_mm.z() - height_mm);
     if (away_mm <= slack_mm) continue;
     ++count;
     farthest_mm = std::max(farthest_mm, away_mm);

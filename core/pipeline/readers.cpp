@@ -81,14 +81,20 @@ ReadersOfCase compareCase(const ReaderRequest& request, const std::string& name,
         warnings.push_back(warning);
   };
   tell(checkReaders(rois, request.overrideChecks));
+  if (mre) tell(mre->warnings);
+  if (mri) tell(mri->diagnostics.texts(Severity::Warning));
   if (mri && mre) tell(checkTogether(*mri, *mre, request.overrideChecks));
   for (const LoadedRoi& roi : rois) {
+    tell(roi.warnings);
     tell(checkRoi(roi, mri ? &*mri : nullptr, mre ? &*mre : nullptr, request.overrideChecks));
     tell(doubtsAboutOutline(roi, mri ? &*mri : nullptr, mre ? &*mre : nullptr).texts());
   }
   for (const LoadedRoi& roi : rois)
     if (roi.mask && !grid) grid = roi.mask->grid;
   if (!grid) grid = mriGrid;
+  if (!grid && mre && !mre->map.unevenSlices_mm.empty())
+    throw BadInput("the elastogram's slices lie unevenly, so that outlines have no volume on it: give the image that they "
+                   "were drawn on (--mri)");
   if (!grid && mre) grid = mre->map.values_kPa.grid;
   if (!grid)
     throw BadInput("outlines alone have no voxels to compare: give the image they were drawn on, or the elastogram");
@@ -109,7 +115,9 @@ ReadersOfCase compareCase(const ReaderRequest& request, const std::string& name,
   for (const LoadedRoi& roi : rois) {
     const elastography::MappedRoi mapped = mapRoi(roi, mriGrid, mre->map);
     tell(mapped.warnings);
-    result.stiffness_kPa.push_back(elastography::measure(mre->map, mapped.mask).pooled.mean_kPa);
+    const elastography::Measurement measured = elastography::measure(mre->map, mapped.mask);
+    tell(measured.warnings);
+    result.stiffness_kPa.push_back(measured.pooled.mean_kPa);
   }
   return result;
 }

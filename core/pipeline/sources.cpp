@@ -14,13 +14,9 @@
 #include "dicom/seg.h"
 #include "elastography/roi_from_structures.h"
 #include "image/io.h"
-#include "image/morphology.h"
 #include "pipeline/file_names.h"
 #include "pipeline/region_file.h"
-#include "roi/arrangement.h"
 #include "roi/contour_io.h"
-#include "roi/interpolate.h"
-#include "roi/plane.h"
 
 namespace glisson::pipeline {
 namespace {
@@ -299,11 +295,32 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
   return out;
 }
 
+namespace {
+
+/// Where the named images are those of a series in one folder, and the named series is another one in the other folder.
+void tellContradiction(const OutlineNames& names, const std::vector<const dicom::ScanResult*>& scans, Diagnostics& said) {
+  OutlineNames images = names, series = names;
+  images.seriesUid.clear();
+  series.planes.clear();
+  for (std::size_t here = 0; scans.size() == 2 && here < 2; ++here) {
+    const dicom::ScanResult &holder = *scans[here], &other = *scans[1 - here];
+    const int drawn = outlinedSeries(holder, images), named = outlinedSeries(other, series);
+    if (drawn < 0 || named < 0 || outlinedSeries(holder, series) >= 0 || outlinedSeries(other, images) >= 0) continue;
+    said.add(DiagnosticCode::OutlineNamesContradict,
+             {{"named", static_cast<std::int64_t>(other.series[static_cast<std::size_t>(named)].number)},
+              {"series", static_cast<std::int64_t>(holder.series[static_cast<std::size_t>(drawn)].number)}});
+    return;
+  }
+}
+
+}  // namespace
+
 Diagnostics doubtsAboutOutline(const LoadedRoi& roi, const AnatomicalImage* mri, const LoadedStiffness* mre) {
   Diagnostics said;
   std::vector<const dicom::ScanResult*> scans;
   if (mri != nullptr && mri->scan) scans.push_back(mri->scan.get());
   if (mre != nullptr && mre->scan) scans.push_back(mre->scan.get());
+  tellContradiction(roi.names, scans, said);
   said.add(planesOffTheirImages(roi.names, scans, roi.mask ? "frames of the segmentation" : "contours"));
   if (!roi.names.empty() && mri != nullptr && mri->series >= 0 && outlinedSeries(*mri->scan, roi.names) < 0) {
     const std::int64_t taken = mri->scan->series[static_cast<std::size_t>(mri->series)].number;
@@ -319,101 +336,6 @@ Diagnostics doubtsAboutOutline(const LoadedRoi& roi, const AnatomicalImage* mri,
   if (roi.ofDicom && roi.frameOfReferenceUid.empty() && (mri != nullptr || mre != nullptr))
     said.add(DiagnosticCode::OutlineFrameMissing, {{"image", std::string(mri != nullptr ? "MRI" : "elastogram")}});
   return said;
-}
-
-void checkOutlines(LoadedRoi& roi, const image::Grid& mriGrid) {
-  if (!roi.contours) return;
-  const Diagnostics doubts = roi::outlineDoubts(*roi.contours, mriGrid, true);
-  roi.diagnostics.add(doubts);
-  append(roi.warnings, doubts.texts(Severity::Warning));
-}
-
-std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& mriGrid) {
-  if (!roi.contours) return std::nullopt;
-  *roi.contours = roi::interpolateBetween(*roi.contours, mriGrid);
-  // Outlines that a reader had interpolated before count like those interpolated just now.
-  int drawn = 0, interpolated = 0;
-  for (const std::vector<std::size_t>& members : roi::polygonsPerSlice(*roi.contours, mriGrid)) {
-    const auto holds = [&](roi::PolygonState state) {
-      return std::any_of(members.begin(), members.end(), [&](std::size_t p) {
-        const roi::Polygon& polygon = roi.contours->polygons[p];
-        return !polygon.exclude && polygon.state == state;
-      });
-    };
-    if (holds(roi::PolygonState::Accepted))
-      ++drawn;
-    else if (holds(roi::PolygonState::Interpolated))
-      ++interpolated;
-  }
-  const int empty = static_cast<int>(roi::emptySlicesBetween(*roi.contours, mriGrid).size());
-  if (interpolated + empty == 0) return std::nullopt;
-  std::string text = "outlines on " + std::to_string(drawn) + " of " + std::to_string(drawn + interpolated + empty) +
-                     " slices; " + std::to_string(interpolated) + " slices between them were interpolated by shape";
-  if (empty > 0)
-    text += "; " + std::to_string(empty) + " slices stay empty, because the outlines next to them do not overlap";
-  return text;
-}
-
-namespace {
-
-/// Where slices lie unevenly: the region on each of them by itself.
-elastography::MappedRoi mapOnSlices(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
-                                    const elastography::StiffnessMap& map) {
-  const image::Grid& stack = map.values_kPa.grid;
-  elastography::MappedRoi all;
-  all.mask = image::Mask(stack);
-  std::string why;
-  for (std::size_t k = 0; k < map.unevenSlices_mm.size(); ++k) {
-    elastography::StiffnessMap slice;
-    slice.frameOfReferenceUid = map.frameOfReferenceUid;
-    slice.values_kPa.grid = stack;
-    slice.values_kPa.grid.size.z() = 1;
-    slice.values_kPa.grid.origin_lps_mm += map.unevenSlices_mm[k] * stack.direction.col(2);
-    try {
-      elastography::MappedRoi one = mapRoi(roi, mriGrid, slice);
-      std::ranges::copy(one.mask.values, all.mask.values.begin() + static_cast<std::ptrdiff_t>(
-                                                                       stack.linear(0, 0, static_cast<int>(k))));
-      all.coverage += one.coverage;
-      all.coincidentSlices += one.coincidentSlices;
-      all.sampledSlices += one.sampledSlices;
-      all.diagnostics.add(one.diagnostics);
-    } catch (const BadInput& e) {
-      why = e.what();
-    }
-  }
-  if (image::count(all.mask) == 0) throw BadInput(why);
-  all.coverage = std::min(1.0, all.coverage);
-  append(all.warnings, all.diagnostics.texts(Severity::Warning));
-  if (!roi.frameOfReferenceUid.empty() && !map.frameOfReferenceUid.empty() &&
-      roi.frameOfReferenceUid != map.frameOfReferenceUid)
-    all.warnings.push_back(
-        "the region of interest and the elastogram have different frames of reference; confirm that they fit");
-  return all;
-}
-
-}  // namespace
-
-elastography::MappedRoi mapRoi(const LoadedRoi& roi, const std::optional<image::Grid>& mriGrid,
-                               const elastography::StiffnessMap& map) {
-  if (!map.unevenSlices_mm.empty()) return mapOnSlices(roi, mriGrid, map);
-  if (roi.contours) {
-    LoadedRoi complete;
-    complete.contours = roi.contours;
-    const auto completed = mriGrid ? completeOutlines(complete, *mriGrid) : std::nullopt;
-    elastography::MappedRoi mapped =
-        elastography::mapRoi(*complete.contours, mriGrid, map.values_kPa.grid, map.frameOfReferenceUid);
-    if (completed) mapped.warnings.push_back(*completed);
-    return mapped;
-  }
-  if (roi.mask) {
-    elastography::MappedRoi mapped = elastography::mapRoi(*roi.mask, map.values_kPa.grid);
-    if (!roi.frameOfReferenceUid.empty() && !map.frameOfReferenceUid.empty() &&
-        roi.frameOfReferenceUid != map.frameOfReferenceUid)
-      mapped.warnings.push_back(
-          "the segmentation and the elastogram have different frames of reference: check that they belong together");
-    return mapped;
-  }
-  throw BadArgument("mapRoi: the region of interest is empty");
 }
 
 }  // namespace glisson::pipeline

@@ -19,7 +19,7 @@ double areaOf(const Eigen::Matrix2Xd& ring) {
 }
 
 struct Counts {
-  std::size_t repeated = 0, repeatedOn = 0, overlapping = 0, overlappingOn = 0, cancelling = 0, specks = 0;
+  std::size_t repeated = 0, repeatedOn = 0, overlapping = 0, overlappingOn = 0, cancelling = 0, hollow = 0, specks = 0;
 
   void add(const ContourStack& contours, const std::vector<std::size_t>& members, const image::Grid& grid) {
     std::vector<Eigen::Matrix2Xd> rings;
@@ -44,10 +44,16 @@ struct Counts {
     repeatedOn += arrangement.repeated > 0 ? 1 : 0;
     overlapping += arrangement.overlapping;
     overlappingOn += arrangement.overlapping > 0 ? 1 : 0;
-    if (!large || std::find(flips.begin(), flips.end(), true) == flips.end()) return;
-    double area = 0.0;
-    detail::forTrapezoids(rings, [&](const std::vector<bool>& in, double a) { area += holds(arrangement, in) ? a : 0.0; });
-    cancelling += area < speck_pixels * grid.spacing_mm.head<2>().prod() ? 1 : 0;
+    if (!large || rings.size() < 2) return;
+    double area = 0.0, enclosed = 0.0;
+    detail::forTrapezoids(rings, [&](const std::vector<bool>& in, double a) {
+      area += holds(arrangement, in) ? a : 0.0;
+      enclosed += std::find(in.begin(), in.end(), true) != in.end() ? a : 0.0;
+    });
+    if (area < speck_pixels * grid.spacing_mm.head<2>().prod())
+      ++cancelling;
+    else if (area < 0.5 * enclosed)
+      ++hollow;
   }
 };
 
@@ -65,6 +71,7 @@ Diagnostics outlineDoubts(const ContourStack& contours, const image::Grid& grid,
     doubts.add(DiagnosticCode::OutlinesOverlap,
                {{"count", number(counts.overlapping)}, {"slices", number(counts.overlappingOn)}});
   if (counts.cancelling > 0) doubts.add(DiagnosticCode::OutlinesCancel, {{"slices", number(counts.cancelling)}});
+  if (counts.hollow > 0) doubts.add(DiagnosticCode::OutlinesHollow, {{"slices", number(counts.hollow)}});
   if (!slices.offPlane.empty())
     doubts.add(DiagnosticCode::OutlinesOffPlane,
                {{"count", number(slices.offPlane.size())}, {"mm", slices.farthestOffPlane_mm}});

@@ -47,7 +47,8 @@ def everywhere(value):
 
 
 def slice_of(values, k, number, description, maker="GE MEDICAL SYSTEMS", sequence="epimre", frame="frame", series=None,
-             shift=(0.0, 0.0, 0.0), image_type=("DERIVED", "PRIMARY", "OTHER"), rescale=None, name=None, **more):
+             shift=(0.0, 0.0, 0.0), image_type=("DERIVED", "PRIMARY", "OTHER"), rescale=None, name=None, add=(), **more):
+    """add: elements that pydicom has no name for, as (tag, VR, value)."""
     series = series or f"series {number}"
     d = obj(MR, name or f"{series} {k}", series)
     d.Manufacturer, d.SeriesNumber, d.SeriesDescription, d.InstanceNumber = maker, number, description, k + 1
@@ -70,6 +71,8 @@ def slice_of(values, k, number, description, maker="GE MEDICAL SYSTEMS", sequenc
         d.RescaleSlope, d.RescaleIntercept, d.RescaleType = rescale
     for key, value in more.items():
         setattr(d, key, value)
+    for element in add:
+        d.add_new(*element)
     return d
 
 
@@ -147,7 +150,7 @@ def structures(path, rois, images=(), frames=("frame",), series="structures", da
             if image is not None:
                 c.ContourImageSequence = Sequence([reference(image)])
             c.ContourGeometricType, c.NumberOfContourPoints = "CLOSED_PLANAR", len(points)
-            c.ContourData = [str(v) for p in points for v in p]
+            c.ContourData = [f"{v:.10g}" for p in points for v in p]
             items.append(c)
         if items:
             b.ContourSequence = Sequence(items)

@@ -74,7 +74,7 @@ class Partners(Folder):
             for number, n, mean in ((11, PER_SLICE * 3 // 2, 5.0), (21, PER_SLICE * 3, 2.0)):
                 self.assertMean(self.measure(folder, "--role", f"{number}=stiffness"), mean, n)
         two("numbers", AcquisitionNumber=[4, 9])
-        two("uids", AcquisitionUID=[small.uid("one"), small.uid("two")])
+        two("uids", add=[[(0x00080017, "UI", small.uid(uid))] for uid in ("one", "two")])
         two("times", AcquisitionTime=["101500.25", "104010"])
         two("frames", frame=["frame", "other"])
         two("places", shift=[(0, 0, 0), (0, 0, 2)])
@@ -227,6 +227,47 @@ class Values(Folder):
                       scale(0.002, "kPa", quantity=code("m", "99OTHER", "Shear modulus"))]
         self.assertMean(self.measure(mapped("quantities", quantities, flat)), 2.1)
 
+    def test_a_map_that_gives_no_scale_is_doubted(self):
+        # A table of more than 64 KiB stands as raw bytes in explicit encodings.
+        table = scale(None, "kPa", 0, 19999, [0.003 * n for n in range(20000)])
+        self.assertGreater(len(bytes(20000 * 8)), 65536)
+        write(self.folder / "large", 401, everywhere(1000), "Stiffness",
+              RealWorldValueMappingSequence=Sequence([table]))
+        self.assertMean(self.measure("large"), 3.0)
+        bare = scale(0.003, "kPa")
+        del bare.RealWorldValueSlope, bare.RealWorldValueIntercept
+        write(self.folder / "bare", 401, everywhere(1000), "Stiffness",
+              RealWorldValueMappingSequence=Sequence([bare]))
+        self.assertIn("map-without-scale", self.codes(self.measure("bare"), "warning"))
+
+    def test_slices_of_different_quantities_are_no_map(self):
+        def mixed(folder, odd, others):
+            for k in range(3):
+                quantity = odd if k == 1 else others
+                d = small.slice_of(everywhere(2000), k, 12, "MRE_stiffness", maker="SIEMENS", sequence=None,
+                                   RealWorldValueMappingSequence=Sequence([scale(0.001, "kPa", quantity=quantity)]))
+                small.save(d, self.folder / folder, f"{k}.dcm")
+            return folder
+        shear, youngs = code("m", "99OTHER", "Shear modulus"), code("e", "99OTHER", "Young's modulus")
+        self.assertIn("different quantities", self.refused(mixed("both", youngs, shear)))
+        self.assertIn("do not say what they hold", self.refused(mixed("some", youngs, None)))
+        self.assertMean(self.measure(mixed("shear", shear, None)), 2.0)
+
+    def test_slices_of_another_order_of_magnitude_are_doubted(self):
+        # One slice went through a converter that lost its scale: no unit tells.
+        siemens(self.folder / "mre", 12, lambda k: everywhere(2 if k == 2 else 2000), "MRE_stiffness",
+                rescale=("0.001", "0", "US"))
+        answer = self.measure("mre", "--unit", "kPa")
+        self.assertIn("slices-of-another-scale", self.codes(answer, "warning"))
+
+    def test_many_voxels_of_one_huge_value_are_doubted(self):
+        rows = [[2000] * 6 + [32767] * 10] * small.N
+        write(self.folder / "mre", 401, rows, "Stiffness")
+        self.assertIn("median", str(self.measure()["warnings"]))  # most voxels: the median tells
+        rows = [[2000] * 10 + [32767] * 6] * small.N
+        write(self.folder / "unmarked", 401, rows, "Stiffness")
+        self.assertIn("values-at-ceiling", self.codes(self.measure("unmarked"), "warning"))
+
     def test_stored_values_beyond_the_map_have_no_value(self):
         siemens(self.folder / "mre", 12, sides(1050, 9000), "MRE_stiffness",
                 RealWorldValueMappingSequence=Sequence([scale(0.003, "kPa", 0, 5000)]))
@@ -372,6 +413,12 @@ class Outlines(Folder):
         self.assertEqual(chosen["arguments"]["series"], 3)
         against = self.measure("mre", "--mri", self.folder / "mri", "--role", "4=anatomical", roi=roi)
         self.assertIn("outlined-series-not-taken", self.codes(against, "warning"))
+        torn = pydicom.dcmread(roi)
+        study = torn.ReferencedFrameOfReferenceSequence[0].RTReferencedStudySequence[0]
+        study.RTReferencedSeriesSequence[0].SeriesInstanceUID = small.uid("series 401")
+        torn.save_as(self.folder / "torn.dcm", write_like_original=False)
+        answer = self.measure("mre", "--mri", self.folder / "mri", roi=self.folder / "torn.dcm")
+        self.assertIn("outline-names-contradict", self.codes(answer, "warning"))
         lost = write(self.folder / "elsewhere", 9, everywhere(100), "T1 gone", 3, **original)
         answer = self.measure("mre", "--mri", self.folder / "mri", roi=liver(self.folder / "lost.dcm", images=lost))
         self.assertIn("outlined-series-absent", self.codes(answer, "warning"))

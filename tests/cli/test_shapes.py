@@ -66,6 +66,12 @@ class Outlines(InAFolder):
         left, right = rectangle(-16, 4, -10, 10, 10.0), rectangle(-4, 16, -10, 10, 10.0)
         self.assertPixels(self.measured([left, right], "CLOSEDPLANAR_XOR"), 640 - 40)
 
+    def test_a_region_drawn_twice_is_no_large_hole_without_a_word(self):
+        outer = rectangle(-16, 16, -10, 10, 10.0)
+        for inner in (rectangle(-14, 14, -8, 8, 10.0), rectangle(-12, 14, -9, 9, 10.0)):
+            self.said(self.measured([outer, inner]), "less than half", "twice")
+        self.silent_about(self.measured([outer, rectangle(-4, 4, -4, 4, 10.0)]), "less than half")
+
     def test_a_lobe_at_another_height_of_its_slice_counts_and_is_said(self):
         j = self.measured([rectangle(-16, 0, -10, 10, 10.0), rectangle(0, 16, -10, 10, 12.0)])
         self.assertPixels(j, 640)
@@ -264,6 +270,21 @@ class Places(InAFolder):
         self.assertIn("Offset", mha([m.replace("Offset = 1 2 3", "Offset = 1 2 3 4") for m in meta], code=3))
         self.assertIn("truncated", mha([m.replace("5 4 3", "5 4 4") for m in meta], code=3))
 
+    def test_lists_of_cells_that_contradict_themselves_are_refused(self):
+        points = "DATASET POLYDATA\nPOINTS 4 float\n0 0 0\n100 0 0\n0 100 0\n0 0 100\n"
+        old = "# vtk DataFile Version 3.0\nx\nASCII\n" + points + "POLYGONS 4 16\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
+        new = ("# vtk DataFile Version 5.1\nx\nASCII\n" + points + "POLYGONS 5 12\nOFFSETS vtktypeint64\n0 3 6 9 12\n"
+               "CONNECTIVITY vtktypeint64\n0 2 1 0 1 3 1 2 3 0 3 2\n")
+        for n, text in enumerate((old, new)):
+            file = self.folder / f"{n}.vtk"
+            file.write_text(text)
+            cli("agree", file, file, "--quiet")
+            for broken in (text[:-4], text.replace("0 3 2", "0 32"), text.replace("3 0 1 3", "30 1 3"),
+                           text.replace("POLYGONS 4 16", "POLYGONS 4 15"), text.replace("POLYGONS 5 12", "POLYGONS 5 14")):
+                if broken != text:
+                    file.write_text(broken)
+                    self.assertIn("list of cells", cli("agree", file, file, "--quiet", code=3).stderr)
+
     def test_rounded_positions_are_even_and_said(self):
         def scanned(heights):
             folder = self.folder / f"s{len(list(self.folder.iterdir()))}"
@@ -285,6 +306,11 @@ class Places(InAFolder):
         self.assertEqual([s["n"] for s in j["slices"]], [160] * 4)
         self.assertAlmostEqual(j["pooled"]["mean_kPa"], 3.0, places=4)
         self.said(j, "unevenly", "10 to 19 mm")
+        sparse = outlines(self.folder / "sparse.dcm", [rectangle(-16, 16, -10, 10, z) for z in (0.0, 22.0, 31.0, 41.0)])
+        j = cli_json("measure", "--mre", self.folder / "mre", "--roi", sparse)
+        self.assertEqual([s["n"] for s in j["slices"]], [160, 160, 160])
+        self.said(j, "1 of 4", "hold no outline")
+        self.said(j, "1 of 4", "none of the image's slices")
         self.assertIn("unevenly", cli("convert", self.folder / "mre", self.folder / "o.nii", "--quiet", code=3).stderr)
 
 
