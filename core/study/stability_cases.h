@@ -41,6 +41,7 @@ Scenes contrastScenes(const StabilityOptions& options);    ///< inclusions, rand
 Scenes matrixScenes(const StabilityOptions& options);      ///< symmetry, zero modes, balance, threads, scales, sizes
 Scenes refusalScenes(const StabilityOptions& options);     ///< unusable moduli, supports, islands
 Scenes meshScenes(const StabilityOptions& options);        ///< tetrahedra and mesh-free sites, good and bad
+Scenes contactScenes(const StabilityOptions& options);     ///< a rigid bar under a soft lobe: poses, stiffnesses
 Scenes retractionScenes(const StabilityOptions& options);  ///< whole scenes: comparison, retractor, validity
 
 /// "text 1.234 text": numbers with four digits.

@@ -20,7 +20,7 @@ constexpr double pathTolerance = 1e-2;
 constexpr double farthest_m = 0.2;      ///< of travel
 constexpr double slipFall = 0.75;       ///< of the largest force: the bar slips
 constexpr double slipTravel_m = 12e-3;  ///< past the largest force without reaching it again
-constexpr int meetingTries = 15;        ///< travels tried for one force
+constexpr int meetingTries = 40;        ///< travels tried for one force
 constexpr int mostOnFinest = 300;        ///< iterations there, once the path is done
 constexpr double coarsePathCells = 1.4; ///< largest cells of the path over the bar's radius
 
@@ -166,12 +166,16 @@ bool Solver::meetForce(State& state, double tolerance, NewtonRun& run) {
   std::optional<Side> below, above;
   State trial = state;
   double step = firstStep_m, best = 0, bestAt = state.s;
+  bool indefinite = false;
+  int freely = 2;
   for (int tries = 0; tries < meetingTries; ++tries) {
+    // On the way a loose answer is enough; between two sides it has to be the answer itself.
     State next = trial;
-    run = energy.passes(state, next) ? converge(next, {}, tolerance, 40) : NewtonRun{};
+    run = energy.passes(state, next) ? converge(next, {}, below && above ? tolerance : pathTolerance, 60) : NewtonRun{};
+    indefinite = indefinite || run.indefinite;
     if (!run.converged) {
-      // Closer to where it last went well. The force has nowhere to rise: the bar slips.
-      if (std::abs(trial.s - state.s) < shortestStep_m) return below && !above && slips(best);
+      // Closer to where it last went well. The body gives way and the force has nowhere to rise: the bar slips.
+      if (std::abs(trial.s - state.s) < shortestStep_m) return indefinite && below && !above && slips(best);
       const double closer = 0.5 * (trial.s + state.s);
       trial = state;
       trial.s = closer;
@@ -181,11 +185,22 @@ bool Solver::meetForce(State& state, double tolerance, NewtonRun& run) {
     state = std::move(next);
     const double off = barForce(state) - goal;
     if (off + goal > best) best = off + goal, bestAt = state.s;
-    if (std::abs(off) <= tolerance * goal) return true;
+    if (below && above && std::abs(off) <= tolerance * goal) return true;
+    indefinite = false;
     (off < 0 ? below : above) = Side{state, off};
     if (below && above) {
       const Side &a = *below, &b = *above;
       if (std::abs(b.state.s - a.state.s) < 1e-9) return false;
+      if (freely > 0 && std::abs(b.state.s - a.state.s) < firstStep_m) {
+        // So close the force itself can be given: that converges faster, if it stays near the two.
+        --freely;
+        State free = std::abs(a.off_N) < b.off_N ? a.state : b.state;
+        run = converge(free, goal, tolerance, 60);
+        if (run.converged && std::abs(free.s - 0.5 * (a.state.s + b.state.s)) < slipTravel_m) {
+          state = std::move(free);
+          return true;
+        }
+      }
       // Secant, kept away from both ends.
       double t = a.off_N / (a.off_N - b.off_N);
       if (tries % 4 == 3) t = 0.5;
@@ -245,7 +260,7 @@ bool Solver::finish(State& state) {
     const bool lastLevel = l == 0 || options.pathOnly;
     const double tolerance = lastLevel ? options.tolerance : std::max(1e-3, options.tolerance);
     State trial = state;
-    NewtonRun run = converge(trial, problem.force_N, tolerance, 40);
+    NewtonRun run = converge(trial, problem.force_N, tolerance, 80);
     if (run.converged && trial.s > state.s + slipTravel_m) run.converged = false;
     if (run.converged) {
       state = std::move(trial);
