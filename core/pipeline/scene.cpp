@@ -237,7 +237,13 @@ Scene parseScene(const std::string& text, const std::filesystem::path& folder, c
   });
   s.setup.kinematics = kinematicsOf(
       o.word("kinematics", {"auto", "linear", "corotational", "hyperelastic"}, retractor ? "auto" : "linear"));
-  s.setup.capsule = readCapsule(o, retractor && s.geometry.kind == GeometrySpec::Kind::Patient);
+  // A liver: a patient's, or a mask on which the place of the bar is found by anatomy.
+  const bool found = std::any_of(s.setup.loads.begin(), s.setup.loads.end(), [](const retraction::LoadSpec& l) {
+    const auto* bar = std::get_if<retraction::Retractor>(&l);
+    return bar != nullptr && !bar->at_mm;
+  });
+  s.setup.capsule = readCapsule(o, s.geometry.kind == GeometrySpec::Kind::Patient   ? retractor
+                                   : s.geometry.kind == GeometrySpec::Kind::Mask && found);
   if (o.has("analysis")) s.setup.analysis = detail::readAnalysis(o.object("analysis"));
   if (o.has("solver")) {
     s.setup.solver = detail::readSolver(o.object("solver"));

@@ -107,7 +107,7 @@ class Sofa(unittest.TestCase):
                 "material": {"map": "E.nii.gz", "quantity": "youngs", "unit": "kPa", "poisson": 0.45},
                 "supports": [{"region": {"surface": "posterior"}, "kind": "spring", "stiffness_kPa_per_mm": 0.2},
                              {"region": {"surface": "superior"}, "kind": "spring", "stiffness_kPa_per_mm": 0.2}],
-                "loads": [{"kind": "retractor", "length_mm": 40, "force": 2}],
+                "loads": [{"kind": "retractor", "length_mm": 40, "force": 2, "contact": "patch"}], "kinematics": "linear",
                 "model": {"kind": "fem-hex", "element": "H8"}, **more}
 
     def test_same_element_gives_the_same_retraction(self):

@@ -19,10 +19,10 @@ std::filesystem::path sceneFile(const test::TemporaryFolder& folder, const std::
     "geometry": { "kind": "box", "size_mm": [120, 80, 60], "cell_mm": 10 },
     "material": { "youngs_kPa": 4, "poisson": 0.45 },
     "supports": [ { "region": {"surface":"posterior"}, "kind": "spring", "stiffness_kPa_per_mm": 0.1 } ],
-    "loads": [ { "kind": "retractor", "diameter_mm": 20, "length_mm": 60, "at": [30, 80, 30], "force": 3,
+    "loads": [ { "kind": "retractor", "diameter_mm": 20, "length_mm": 60, "at": [30, 80, 30], "force": 3, "contact": "patch",
                  "direction": [0, -1, 0] } ],)" +
                              compare + R"(
-    "model": { "kind": "fem-hex" } })";
+    "kinematics": "linear", "model": { "kind": "fem-hex" } })";
   return file;
 }
 
