@@ -151,7 +151,7 @@ QWidget* ModelPage::makeSide() {
   solution_ = new QFormLayout;
   kinematics_ =
       choice("kinematics", tr("How strain follows from displacement; other than linear for voxel FEM at rest"));
-  kinematics_->addItems({tr("Linear"), tr("Corotational"), tr("Hyperelastic")});
+  kinematics_->addItems({tr("Linear"), tr("Corotational"), tr("Hyperelastic"), tr("Automatic")});
   solution_->addRow(tr("Deformation"), kinematics_);
   motion_ = choice("analysis", tr("One solve for the new rest, or time steps towards it"));
   motion_->addItems({tr("At rest"), tr("Time steps")});
@@ -206,8 +206,8 @@ void ModelPage::take() {
   p.end_s = end_->value();
   p.solver = session::solverNames[static_cast<std::size_t>(solver_->currentIndex())].first;
   // What the method does not offer goes back to what it does: the controls show it.
-  if (!session::isHex(p.method)) p.kinematics = retraction::Kinematics::Linear;
-  const bool linear = p.kinematics == retraction::Kinematics::Linear;
+  if (!session::isHex(p.method) && !session::mayBeLinear(p.kinematics)) p.kinematics = retraction::Kinematics::Auto;
+  const bool linear = session::mayBeLinear(p.kinematics);
   if (!linear || (!session::isHex(p.method) && !session::isMeshfree(p.method))) p.dynamic = false;
   if (p.solver == session::Solver::Condensed && (!session::isHex(p.method) || !linear))
     p.solver = session::Solver::Auto;
@@ -240,7 +240,7 @@ void ModelPage::show_() {
 void ModelPage::showWhatFits() {
   const session::Parameters& p = session_.parameters();
   const bool hex = session::isHex(p.method), frames = session::isMeshfree(p.method);
-  const bool delaunay = session::isDelaunay(p.method), linear = p.kinematics == retraction::Kinematics::Linear;
+  const bool delaunay = session::isDelaunay(p.method), linear = session::mayBeLinear(p.kinematics);
   mesh_->setRowVisible(frames_, frames);
   mesh_->setRowVisible(tetEdge_, delaunay);
   mesh_->setRowVisible(tetToolEdge_, delaunay);

@@ -46,10 +46,15 @@ inline constexpr std::array<std::pair<Solver, const char*>, 5> solverNames = {{{
                                                                                {Solver::Multigrid, "multigrid"},
                                                                                {Solver::Factorised, "factorised"},
                                                                                {Solver::Condensed, "condensed"}}};
-inline constexpr std::array<std::pair<retraction::Kinematics, const char*>, 3> kinematicsNames = {
+inline constexpr std::array<std::pair<retraction::Kinematics, const char*>, 4> kinematicsNames = {
     {{retraction::Kinematics::Linear, "linear"},
      {retraction::Kinematics::Corotational, "corotational"},
-     {retraction::Kinematics::Hyperelastic, "hyperelastic"}}};
+     {retraction::Kinematics::Hyperelastic, "hyperelastic"},
+     {retraction::Kinematics::Auto, "auto"}}};
+/// Whether the scene can be one that linear theory answers, in time steps or condensed.
+inline bool mayBeLinear(retraction::Kinematics k) {
+  return k == retraction::Kinematics::Linear || k == retraction::Kinematics::Auto;
+}
 
 /// The name of a choice, and the choice of a name. what: for the message of the BadInput where no choice has that name.
 template <typename Choice, std::size_t n>

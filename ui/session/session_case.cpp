@@ -35,6 +35,7 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
   s.setup.model.cell_mm = parameters_.tetEdge_mm;
   s.setup.model.toolCell_mm = parameters_.tetToolEdge_mm;
   s.setup.kinematics = parameters_.kinematics;
+  s.setup.capsule = retraction::Capsule{};
   s.setup.analysis.dynamic = parameters_.dynamic;
   s.setup.analysis.h_ms = parameters_.step_ms;
   s.setup.analysis.end_s = parameters_.end_s;

@@ -166,12 +166,12 @@ bool Solver::meetForce(State& state, double tolerance, NewtonRun& run) {
   std::optional<Side> below, above;
   State trial = state;
   double step = firstStep_m, best = 0, bestAt = state.s;
-  bool indefinite = false;
+  bool indefinite = false, tight = false;
   int freely = 2;
   for (int tries = 0; tries < meetingTries; ++tries) {
-    // On the way a loose answer is enough; between two sides it has to be the answer itself.
+    // On the way a loose answer is enough. Once the force has been passed it has to be the answer itself.
     State next = trial;
-    run = energy.passes(state, next) ? converge(next, {}, below && above ? tolerance : pathTolerance, 60) : NewtonRun{};
+    run = energy.passes(state, next) ? converge(next, {}, tight ? tolerance : pathTolerance, 60) : NewtonRun{};
     indefinite = indefinite || run.indefinite;
     if (!run.converged) {
       // Closer to where it last went well. The body gives way and the force has nowhere to rise: the bar slips.
@@ -185,8 +185,16 @@ bool Solver::meetForce(State& state, double tolerance, NewtonRun& run) {
     state = std::move(next);
     const double off = barForce(state) - goal;
     if (off + goal > best) best = off + goal, bestAt = state.s;
-    if (below && above && std::abs(off) <= tolerance * goal) return true;
+    if (tight && std::abs(off) <= tolerance * goal) return true;
     indefinite = false;
+    if (!tight && (off < 0 ? above : below)) {
+      tight = true;
+      below.reset();
+      above.reset();
+      trial = state;
+      step = std::min(step, firstStep_m);
+      continue;
+    }
     (off < 0 ? below : above) = Side{state, off};
     if (below && above) {
       const Side &a = *below, &b = *above;
