@@ -47,6 +47,13 @@ double forceAt(const std::vector<std::array<double, 2>>& path, double travel_mm)
   return path.empty() ? 0.0 : path.back()[1];
 }
 
+/// Force at a travel on the answer's own cells: that of the path, which is followed on coarser ones, times what they
+/// differ by at the answer.
+double forceAt(const retraction::RigidContact& c, double travel_mm) {
+  const double borne_N = c.force_N.dot(c.hoist), onPath_N = forceAt(c.path, c.travel_mm);
+  return onPath_N > 0.0 ? forceAt(c.path, travel_mm) * borne_N / onPath_N : borne_N;
+}
+
 /// In the bar's window at rest: under its length and diameter, looking against the hoist, within 30 mm of it.
 bool inWindow(const retraction::RigidContact& c, std::size_t sample) {
   constexpr double depth_mm = 30.0;
@@ -71,7 +78,7 @@ void compareContacts(const retraction::RigidContact& a, const retraction::RigidC
   d.contact_mean_mm = pressed.value();
   d.travel_mm = a.travel_mm - b.travel_mm;
   const double lift_mm = std::min(a.travel_mm, b.travel_mm);
-  d.equal_lift = {lift_mm, forceAt(a.path, lift_mm), forceAt(b.path, lift_mm)};
+  d.equal_lift = {lift_mm, forceAt(a, lift_mm), forceAt(b, lift_mm)};
 }
 
 }  // namespace

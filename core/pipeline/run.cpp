@@ -147,7 +147,8 @@ void requireMemory(const std::vector<PlanStep>& plan) {
 std::string whyKinematics(const Scene& scene, const retraction::Result& r) {
   if (scene.setup.kinematics != retraction::Kinematics::Auto) return "the scene asks for them";
   if (r.contact) return "contact is followed in large deformation, at no more cost than asking whether linear would do";
-  if (r.kinematics == retraction::Kinematics::Hyperelastic) return "linear theory misses 0.2 mm or more";
+  if (r.kinematics == retraction::Kinematics::Hyperelastic)
+    return "linear theory misses 0.2 mm or more, or strains leave it";
   return r.linearGap && retraction::kinematicsValid(r) ? "linear theory misses less than 0.2 mm"
                                                        : "the model offers no other";
 }
@@ -181,6 +182,13 @@ void tellOfSlips(RunResult& r) {
     const retraction::Result* result = atlas ? (r.atlas ? &*r.atlas : nullptr) : &r.primary;
     if (result == nullptr || !result->contact || !result->contact->slipped) continue;
     const retraction::RigidContact& c = *result->contact;
+    if (!(c.asked_N > 0.0)) {
+      std::ostringstream t;
+      t << "the body gives way under the bar (" << wordOf(atlas) << " stiffness): after " << c.travel_mm
+        << " mm the force falls, and no further travel is found; " << c.capacity_N << " N was the most it bore";
+      r.warnings.push_back(t.str());
+      continue;
+    }
     r.diagnostics.add(DiagnosticCode::RetractorSlips, {{"capacity_N", c.capacity_N},
                                                        {"travel_mm", c.travel_mm},
                                                        {"stiffness", std::string(wordOf(atlas))},
@@ -188,14 +196,32 @@ void tellOfSlips(RunResult& r) {
   }
 }
 
+bool isAnswer(const retraction::Result& result) {
+  return result.solver.converged() && (result.drawable || result.kinematics == retraction::Kinematics::Linear);
+}
+
+/// A bar that is left to its default, where the rigid one is not offered, and what the second stiffness has to say.
+void tellOfModels(const Scene& scene, RunResult& r) {
+  for (const retraction::LoadSpec& load : scene.setup.loads)
+    if (const auto* bar = std::get_if<retraction::Retractor>(&load);
+        bar != nullptr && !bar->contact && !r.primary.contact)
+      r.warnings.push_back(
+          "the retractor is a patch of pressure here, not a rigid bar: that is offered for voxel hexahedra at rest, in large "
+          "deformation; \"contact\": \"patch\" says that this is meant");
+  if (r.atlas && r.atlas->contact)
+    for (const std::string& doubt : r.atlas->validity) r.warnings.push_back("atlas: " + doubt);
+}
+
 /// Two runs of which one is no answer have no difference.
 void withhold(RunResult& r) {
   for (const bool atlas : {false, true}) {
     const retraction::Result& result = atlas ? *r.atlas : r.primary;
-    if (result.solver.converged()) continue;
+    if (isAnswer(result)) continue;
     r.diagnostics.add(DiagnosticCode::DifferenceWithheld,
                       {{"stiffness", std::string(wordOf(atlas))},
-                       {"reason", std::string(result.contact && result.contact->slipped ? "slips" : "not converged")}});
+                       {"reason", std::string(result.contact && result.contact->slipped ? "slips"
+                                              : result.solver.converged()               ? "no deformation"
+                                                                                        : "not converged")}});
   }
 }
 
@@ -255,7 +281,8 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   });
   if (setup.kinematics == retraction::Kinematics::Auto && !needs.timeSteps && !r.primary.contact) {
     retraction::judgeByGap(r.model, setup, r.landmarks_mm, r.primary);
-    setup.kinematics = retraction::kinematicsValid(r.primary) ? retraction::Kinematics::Linear
+    setup.kinematics = retraction::kinematicsValid(r.primary) && r.primary.linearTrusted
+                           ? retraction::Kinematics::Linear
                                                               : retraction::Kinematics::Hyperelastic;
     if (setup.kinematics != retraction::Kinematics::Linear && setup.model.kind == retraction::ModelKind::FemHex)
       r.primary = retraction::simulate(r.model, setup, scene.outputs.probes_mm, progress);
@@ -280,6 +307,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     });
   }
 
+  tellOfModels(scene, r);
   if (r.atlas)
     for (const std::string& w : r.atlas->solver.diagnostics.texts(Severity::Warning))
       r.warnings.push_back("atlas: " + w);
@@ -325,7 +353,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     else if (r.atlas)
       retraction::judgeByGap(atlasModel, setup, r.landmarks_mm, *r.atlas, p.part(0.5, 1.0));
   });
-  const bool comparable = r.atlas && r.primary.solver.converged() && r.atlas->solver.converged();
+  const bool comparable = r.atlas && isAnswer(r.primary) && isAnswer(*r.atlas);
   if (r.atlas && !comparable) {
     withhold(r);
     steps.leaveOut("difference", "one of the two runs is no answer");

@@ -26,6 +26,7 @@ pipeline::Scene onNodes(pipeline::Scene scene) {
 
 using mechanics::HexElement;
 using retraction::ModelKind;
+constexpr const char* rigidBarMethod = "Rigid bar, large deformation";
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// The scene's body in cells of one size.
@@ -127,6 +128,40 @@ class Tradeoff {
       throw;
     } catch (const Error& e) {
       skip(e.what());
+    }
+  }
+
+  /// The rigid bar in large deformation on cells of this size, against the same on the reference's cells.
+  void runBar(double factor, const retraction::Setup& setup, const std::vector<Eigen::Vector3d>& truth,
+              const std::string& reference, const Progress& progress) {
+    std::ostringstream name;
+    name << rigidBarMethod << ", cells x " << factor << ": ";
+    try {
+      const Case& c = at(factor, progress.part(0.0, 0.2));
+      if (!c.failed.empty() || !c.sameAs.empty()) {
+        study_.skipped.push_back(name.str() + (c.failed.empty() ? "the same grid as " + c.sameAs : c.failed));
+        return;
+      }
+      retraction::Model model = c.model;
+      model.smooth = own_.smooth;
+      const Stopwatch total;
+      const retraction::Result r = retraction::simulate(model, setup, {}, progress.part(0.2, 1.0));
+      Row row;
+      row.method = rigidBarMethod;
+      row.resolution = cellsText(model);
+      row.dofs = r.dofs;
+      row.solve_s = std::min(r.solver.seconds, total.seconds());
+      row.build_s = total.seconds() - row.solve_s;
+      row.step_ms = none;
+      row.converged = r.solver.converged();
+      row.note = ending(r.solver);
+      row.reference = reference;
+      compare(row, retraction::displacementAt(model, r, points_), truth);
+      study_.rows.push_back(std::move(row));
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& e) {
+      study_.skipped.push_back(name.str() + e.what());
     }
   }
 
@@ -300,7 +335,7 @@ TradeoffStudy studyTradeoff(const pipeline::Scene& asked, const TradeoffOptions&
 
   // The reference.
   progress.report(0.1, "reference");
-  retraction::Setup best = held(own.setup, base.model, base.primary);
+  retraction::Setup best = retraction::withPatch(held(own.setup, base.model, base.primary));
   best.solver.tolerance = 1e-9;
   const bool split = 8 * base.model.cells <= static_cast<std::size_t>(options.referenceCells);
   const retraction::Model fine = split ? refined(base.model) : base.model;
@@ -335,6 +370,25 @@ TradeoffStudy studyTradeoff(const pipeline::Scene& asked, const TradeoffOptions&
     }
     // The variant's own messages would pass by faster than one can read.
     tradeoff.run(all[i], Progress([&part](double, const std::string&) { part.check(); }));
+  }
+  if (base.primary.contact && base.placed) {
+    // The scene's own bar, beside its patch: the same place on all cells.
+    retraction::Setup setup = own.setup;
+    for (retraction::LoadSpec& load : setup.loads)
+      if (auto* bar = std::get_if<retraction::Retractor>(&load)) *bar = base.placed->bar;
+    progress.report(0.9, "rigid bar, reference");
+    retraction::Model fineBar = fine;
+    fineBar.smooth = base.model.smooth;
+    const retraction::Result finest = 
+        retraction::simulate(fineBar, setup, {}, Progress([&progress](double, const std::string&) { progress.check(); }));
+    if (finest.solver.converged()) {
+      const std::vector<Eigen::Vector3d> there = retraction::displacementAt(fine, finest, points);
+      for (const double factor : options.quick ? std::vector<double>{2, 1} : std::vector<double>{3, 2, 1.5, 1})
+        tradeoff.runBar(factor, setup, there, "rigid bar on " + cellsText(fine),
+                        Progress([&progress](double, const std::string&) { progress.check(); }));
+    } else {
+      study.skipped.push_back(std::string(rigidBarMethod) + ": its reference did not converge");
+    }
   }
   std::stable_partition(study.rows.begin(), study.rows.end(),
                         [&](const Row& r) { return r.reference == study.reference; });

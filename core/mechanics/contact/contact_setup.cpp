@@ -185,10 +185,15 @@ void describe(const SolidHierarchy& hierarchy, const ContactEnergy& energy, cons
               const std::vector<std::size_t>& kept, const ContactEnergy::State& at, ContactSolution& out) {
   const SolidLevel& level = hierarchy.level(energy.top());
   const std::size_t n = level.nodes();
-  out.travel_m = at.s;
+  // Travel counts from the first force, where the barrier begins: half its width before the surfaces meet.
+  const double before_m = 0.5 * energy.barrier().width_m;
+  out.travel_m = energy.hasBar() ? at.s + before_m : 0;
   out.smallestJ = level.smallestVolumeRatio(at.u.data());
   describeContact(energy, kept, at, problem.surface.size(), out);
-  if (energy.hasBar()) out.bar = energy.bar();
+  if (energy.hasBar()) {
+    out.bar = energy.bar();
+    for (Eigen::Vector3d& p : out.bar.centreline_m) p -= before_m * out.bar.hoist;
+  }
   if (energy.top() != 0) return;
   const VoxelMesh mesh(problem.problem.body);
   Solution& solution = out.solution;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "base/error.h"
@@ -19,6 +20,7 @@ constexpr double firstStep_m = 4e-3, longestStep_m = 6e-3, shortestStep_m = 1e-4
 constexpr double pathTolerance = 1e-2;
 constexpr double farthest_m = 0.2;      ///< of travel
 constexpr double slipFall = 0.75;       ///< of the largest force: the bar slips
+constexpr double fallen = 0.98;         ///< of the largest force, where no step is possible: the bar slips
 constexpr double slipTravel_m = 12e-3;  ///< past the largest force without reaching it again
 constexpr int meetingTries = 40;        ///< travels tried for one force
 constexpr int mostOnFinest = 300;        ///< iterations there, once the path is done
@@ -87,7 +89,9 @@ bool Solver::follow(State& state) {
   double best = last, bestAt = state.s;
   State before = state, reached;
   bool has = false, extrapolate = false, indefinite = false;
-  out.path.push_back({state.s, last});
+  const double before_m = 0.5 * options.zone_m;  // travel counts from the first force
+  const double end_m = problem.travel_m ? *problem.travel_m - before_m : std::numeric_limits<double>::infinity();
+  out.path.push_back({state.s + before_m, last});
   const auto ended = [&](ContactOutcome outcome, bool exceeded) {
     out.outcome = outcome;
     out.capacity_N = std::max(out.capacity_N, best);
@@ -96,7 +100,7 @@ bool Solver::follow(State& state) {
   };
   while (state.s < farthest_m) {
     double target = state.s + step;
-    if (problem.travel_m && target > *problem.travel_m - 1e-9) target = *problem.travel_m;
+    if (target > end_m - 1e-9) target = end_m;
     State trial = state;
     const double factor = extrapolate && state.s > before.s ? (target - state.s) / (state.s - before.s) : 0;
     for (std::size_t i = 0; factor > 0 && i < trial.u.size(); ++i) trial.u[i] += factor * (state.u[i] - before.u[i]);
@@ -113,8 +117,10 @@ bool Solver::follow(State& state) {
       step *= 0.6;
       if (step < 1.5e-3) extrapolate = false;
       if (step < shortestStep_m)
-        return ended(has ? ContactOutcome::Reached : indefinite && best > 0 ? ContactOutcome::Slips : ContactOutcome::Stopped,
-                     !has && indefinite);
+        return ended(has              ? ContactOutcome::Reached
+                     : best > 0 && (indefinite || last < fallen * best) ? ContactOutcome::Slips
+                                                                        : ContactOutcome::Stopped,
+                     !has && (indefinite || last < fallen * best));
       continue;
     }
     const double force = barForce(trial);
@@ -122,19 +128,19 @@ bool Solver::follow(State& state) {
     before = std::move(state);
     state = std::move(trial);
     extrapolate = true;
-    out.path.push_back({state.s, force});
+    out.path.push_back({state.s + before_m, force});
     out.largestDrop_N = std::max(out.largestDrop_N, last - force);
     last = force;
     std::ostringstream what;
     what.precision(3);
-    what << "bar at " << 1e3 * state.s << " mm, " << force << " N";
+    what << "bar at " << 1e3 * (state.s + before_m) << " mm, " << force << " N";
     progress.report(0.05 + 0.6 * std::min(1.0, goal_N > 0 ? force / goal_N : state.s / problem.travel_m.value_or(0.1)),
                     what.str());
     if (force > best) {
       best = force;
       bestAt = state.s;
     }
-    if (problem.travel_m && state.s >= *problem.travel_m - 1e-9) return ended(ContactOutcome::Reached, force < slipFall * best);
+    if (state.s >= end_m - 1e-9) return ended(ContactOutcome::Reached, force < slipFall * best);
     if (problem.force_N) {
       if (!has && force >= *problem.force_N) {
         has = true;
@@ -344,6 +350,10 @@ ContactSolution solveOnce(const ContactProblem& problem, const ContactOptions& o
     solver.useLevel(l);
   }
   describe(solver.hierarchy, solver.energy, problem, solver.kept, state, solver.out);
+  // Cells that turn inside out before the force is borne: the body gives way under the bar.
+  if (solver.out.outcome == ContactOutcome::Stopped && problem.bar && problem.force_N && solver.out.smallestJ <= 0 &&
+      solver.out.capacity_N > 0)
+    solver.slips(solver.out.capacity_N);
   SolveReport& report = solver.out.solution.report;
   report.kind = "newton-multigrid-pcg";
   report.status = good ? SolveStatus::Converged : SolveStatus::StoppedAtLimit;
