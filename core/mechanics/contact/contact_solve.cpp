@@ -37,6 +37,7 @@ struct Solver {
   ContactEnergy energy;
   ContactSolution out;
   std::vector<std::vector<double>> loads;  ///< per level
+  double metOnFinest = 0;                  ///< largest force that an equilibrium on the finest cells bore
   int spent = 0;                           ///< iterations on the finest cells
   std::vector<State> trail;                ///< of the path up to its end, of the level that is worked on
 
@@ -191,6 +192,7 @@ bool Solver::meetForce(State& state, double tolerance, NewtonRun& run) {
     state = std::move(next);
     const double off = barForce(state) - goal;
     if (off + goal > best) best = off + goal, bestAt = state.s;
+    if (energy.top() == 0) metOnFinest = std::max(metOnFinest, off + goal);
     if (tight && std::abs(off) <= tolerance * goal) return true;
     indefinite = false;
     if (!tight && (off < 0 ? above : below)) {
@@ -352,8 +354,8 @@ ContactSolution solveOnce(const ContactProblem& problem, const ContactOptions& o
   describe(solver.hierarchy, solver.energy, problem, solver.kept, state, solver.out);
   // Cells that turn inside out before the force is borne: the body gives way under the bar.
   if (solver.out.outcome == ContactOutcome::Stopped && problem.bar && problem.force_N && solver.out.smallestJ <= 0 &&
-      solver.out.capacity_N > 0)
-    solver.slips(solver.out.capacity_N);
+      solver.metOnFinest > 0 && solver.metOnFinest < *problem.force_N)
+    solver.slips(solver.metOnFinest);
   SolveReport& report = solver.out.solution.report;
   report.kind = "newton-multigrid-pcg";
   report.status = good ? SolveStatus::Converged : SolveStatus::StoppedAtLimit;

@@ -43,7 +43,7 @@ struct ContactProblem {
   double rindPoisson = 0.3;
   std::vector<FollowerFace> pressures;  ///< that follow their faces
   std::vector<BedSample> bed;
-  std::optional<RigidBar> bar;       ///< from anywhere behind its first touch; travel counts from there
+  std::optional<RigidBar> bar;       ///< from anywhere behind its first touch; travel counts from the first force
   std::optional<double> force_N;     ///< on the bar along its hoist; or
   std::optional<double> travel_m;    ///< of the bar
 };
@@ -68,7 +68,7 @@ struct PathStep {
 struct ContactSolution {
   Solution solution;  ///< of the last equilibrium reached
   ContactOutcome outcome = ContactOutcome::Stopped;
-  double travel_m = 0;                  ///< of the bar from its first touch
+  double travel_m = 0;                  ///< of the bar from the first force: half the barrier's width before the first touch
   double capacity_N = 0;                ///< largest force met on the path
   bool capacityExceeded = false;        ///< the force fell after it
   std::vector<PathStep> path;           ///< on the path's cells, then the answer
@@ -81,7 +81,7 @@ struct ContactSolution {
   Eigen::Matrix3Xd surface_u_m;          ///< displacement of each surface sample
   double smallestJ = 1;
   int newton = 0, inner = 0;             ///< iterations, path included
-  RigidBar bar;                          ///< its centre line at first touch (travel 0)
+  RigidBar bar;                          ///< its centre line at travel 0
 };
 
 /// Equilibrium of a hyperelastic body held by springs and clamps and pushed by a rigid, frictionless bar, by Newton's
