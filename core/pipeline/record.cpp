@@ -79,8 +79,7 @@ Json resultToJson(const retraction::Result& r, const Scene& scene) {
   j["fraction_over_10pct_strain"] = r.fraction_over_10pct;
   j["max_rotation_deg"] = r.max_rotation_deg;
   j["max_displacement_mm"] = r.max_displacement_mm;
-  const bool gapSays = r.kinematics != retraction::Kinematics::Linear && r.linearGap && r.linearGap->known;
-  j["linear_valid"] = gapSays ? r.linearGap->trusted() : r.linearTrusted;
+  j["linear_valid"] = r.linearTrusted;
   j["kinematics_valid"] = retraction::kinematicsValid(r);
   if (r.linearGap) j["linear_gap_mm"] = gapToJson(*r.linearGap);
   j["drawable"] = r.drawable;

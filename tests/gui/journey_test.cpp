@@ -401,7 +401,8 @@ class Journey : public QObject, private glisson::test::WindowBench {
 
   void theWindowsSceneIsThatOfTheSyntheticPatient() {
     // Outlines of the patient's own structure set and the parameters as the window starts with them, against the scene
-    // that lies beside the patient: the same numbers. Pictures are left out on both sides, they change no number.
+    // that lies beside the patient, its bar made the linear patch that the window moves live: the same numbers. Pictures are
+    // left out on both sides, they change no number.
     const auto patient = folder() / "synthetic-patient-3";
     session().importContours(QString::fromStdString((patient / "rtstruct.dcm").string()));
     session().setParameters({});
@@ -410,6 +411,10 @@ class Journey : public QObject, private glisson::test::WindowBench {
     const auto numbers = [](const std::filesystem::path& file) {
       auto scene = glisson::pipeline::readScene(file);
       scene.outputs = {};
+      scene.setup.kinematics = glisson::retraction::Kinematics::Linear;
+      for (auto& load : scene.setup.loads)
+        if (auto* bar = std::get_if<glisson::retraction::Retractor>(&load))
+          bar->contact = glisson::retraction::ContactKind::Patch;
       return glisson::pipeline::run(scene, {});
     };
     const auto window = numbers(saved / "scene.json"), own = numbers(patient / "scene.json");

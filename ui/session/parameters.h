@@ -18,7 +18,7 @@ struct Parameters {
   int frames = 200;                                     ///< mesh-free sites
   double tetEdge_mm = retraction::ModelSpec{}.cell_mm;  ///< Delaunay: edges of the tetrahedra
   double tetToolEdge_mm = retraction::ModelSpec{}.toolCell_mm;         ///< and near the retractor
-  retraction::Kinematics kinematics = retraction::Kinematics::Auto;  ///< large deformation: hexahedra at rest only
+  retraction::Kinematics kinematics = retraction::Kinematics::Linear;  ///< other ones: hexahedra at rest only
   Solver solver = Solver::Auto;
   bool dynamic = false;  ///< time steps to the new rest instead of one solve; hexahedra and mesh-free only
   double step_ms = retraction::AnalysisSpec{}.h_ms;

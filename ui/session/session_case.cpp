@@ -35,7 +35,6 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
   s.setup.model.cell_mm = parameters_.tetEdge_mm;
   s.setup.model.toolCell_mm = parameters_.tetToolEdge_mm;
   s.setup.kinematics = parameters_.kinematics;
-  s.setup.capsule = retraction::Capsule{};
   s.setup.analysis.dynamic = parameters_.dynamic;
   s.setup.analysis.h_ms = parameters_.step_ms;
   s.setup.analysis.end_s = parameters_.end_s;
@@ -56,6 +55,8 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
   retractor.diameter_mm = parameters_.retractorDiameter_mm;
   retractor.length_mm = parameters_.retractorLength_mm;
   retractor.spread_mm = parameters_.retractorSpread_mm;
+  // What follows the hand is a patch of pressure; the run beside it has to be the same.
+  retractor.contact = retraction::ContactKind::Patch;
   if (!parameters_.forceIsWeight) retractor.force_N = parameters_.force_N;
   s.setup.loads.push_back(retractor);
   session::apply(parameters_.placement, s.setup);
