@@ -11,19 +11,10 @@ template <class T, int Bytes, bool WithMass>
 GLISSON_INLINE void addRowOf(const RowTask<T>& task, const RowBlocks<T>& blocks) {
   using V = typename VectorOf<T, Bytes>::type;
   constexpr std::size_t lanes = static_cast<std::size_t>(Bytes) / sizeof(T);
-  using Lanes = std::make_index_sequence<lanes>;
   V carry[4][3] = {};
   for (std::size_t i = 0; i < task.n; i += lanes) {
     V w[2][4][3];
-#pragma GCC unroll 4
-    for (int r = 0; r < 4; ++r)
-#pragma GCC unroll 3
-      for (int c = 0; c < 3; ++c) {
-        const V left = *reinterpret_cast<const V*>(task.in[r][c] + i);
-        const V right = *reinterpret_cast<const V*>(task.in[r][c] + i + 1);
-        w[0][r][c] = left + right;
-        w[1][r][c] = left - right;
-      }
+    loadRows(task, i, w);
     transformRows(w);
     const V E = *reinterpret_cast<const V*>(task.E + i);
     V rho = {};
@@ -50,21 +41,9 @@ GLISSON_INLINE void addRowOf(const RowTask<T>& task, const RowBlocks<T>& blocks)
       }
     }
     transformRows(w);
-#pragma GCC unroll 4
-    for (int r = 0; r < 4; ++r)
-#pragma GCC unroll 3
-      for (int c = 0; c < 3; ++c) {
-        const V toLeft = w[0][r][c] + w[1][r][c];
-        const V toRight = w[0][r][c] - w[1][r][c];
-        V shifted;
-        shiftIn(carry[r][c], toRight, shifted, Lanes{});
-        carry[r][c] = toRight;
-        V& out = *reinterpret_cast<V*>(task.out[r][c] + i);
-        out += toLeft + shifted;
-      }
+    storeRows<lanes>(task, i, w, carry);
   }
-  for (int r = 0; r < 4; ++r)
-    for (int c = 0; c < 3; ++c) task.out[r][c][task.n] += carry[r][c][lanes - 1];
+  storeLastNode<lanes>(task, carry);
 }
 
 template <class T, int Bytes>

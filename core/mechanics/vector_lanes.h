@@ -39,6 +39,44 @@ GLISSON_INLINE void transformRows(V (&w)[2][4][3]) {
     }
 }
 
+/// The two nodes of each cell of a row: sums and differences along x, in[row][component] + i being the first node's.
+template <class V, class Row>
+GLISSON_INLINE void loadRows(const Row& row, std::size_t i, V (&w)[2][4][3]) {
+#pragma GCC unroll 4
+  for (int r = 0; r < 4; ++r)
+#pragma GCC unroll 3
+    for (int c = 0; c < 3; ++c) {
+      const V left = *reinterpret_cast<const V*>(row.in[r][c] + i);
+      const V right = *reinterpret_cast<const V*>(row.in[r][c] + i + 1);
+      w[0][r][c] = left + right;
+      w[1][r][c] = left - right;
+    }
+}
+
+/// The way back, added to row.out; what belongs to the next vector's first node is carried.
+template <std::size_t lanes, class V, class Row>
+GLISSON_INLINE void storeRows(const Row& row, std::size_t i, const V (&w)[2][4][3], V (&carry)[4][3]) {
+#pragma GCC unroll 4
+  for (int r = 0; r < 4; ++r)
+#pragma GCC unroll 3
+    for (int c = 0; c < 3; ++c) {
+      const V toLeft = w[0][r][c] + w[1][r][c];
+      const V toRight = w[0][r][c] - w[1][r][c];
+      V shifted;
+      shiftIn(carry[r][c], toRight, shifted, std::make_index_sequence<lanes>{});
+      carry[r][c] = toRight;
+      V& out = *reinterpret_cast<V*>(row.out[r][c] + i);
+      out += toLeft + shifted;
+    }
+}
+
+/// The last node of the row.
+template <std::size_t lanes, class V, class Row>
+GLISSON_INLINE void storeLastNode(const Row& row, const V (&carry)[4][3]) {
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 3; ++c) row.out[r][c][row.n] += carry[r][c][lanes - 1];
+}
+
 /// Vector instructions of this processor that kernels are made for.
 enum class InstructionSet { Portable, Avx2, Avx512 };
 

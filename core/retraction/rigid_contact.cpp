@@ -215,17 +215,6 @@ void addFollowing(const Body& body, const Setup& setup, const Eigen::Vector3d& s
                            0.25 * mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm * f->area_m2});
 }
 
-/// The capsule as a stiffening of the cells that the surface passes through: its tension over the cell's height.
-std::vector<double> rindOf(const mechanics::VoxelBody& body, const std::vector<mechanics::SurfaceSample>& surface,
-                           const Capsule& capsule) {
-  const mechanics::VoxelMesh mesh(body);
-  std::vector<double> rind(body.E_Pa.size(), 0.0);
-  for (const mechanics::SurfaceSample& s : surface)
-    if (const auto cell = mechanics::carrierCell(mesh, s.p_m))
-      rind[body.cell(cell->x(), cell->y(), cell->z())] += 1e3 * capsule.tension_N_per_mm * s.area_m2 / body.h_m.prod();
-  return rind;
-}
-
 mechanics::RigidBar barOf(const Body& body, const Retractor& r, const Eigen::Vector3d& at_mm,
                           const Eigen::Vector3d& shift_m) {
   const Eigen::Vector3d hoist = r.direction.normalized();
@@ -299,7 +288,7 @@ ContactScene contactScene(const Body& body, const Model& model, const Setup& set
   if (setup.capsule && setup.capsule->form == CapsuleForm::Membrane)
     p.skin = mechanics::Skin{1e3 * setup.capsule->tension_N_per_mm};
   else if (setup.capsule)
-    p.rind_Pa = rindOf(p.problem.body, p.surface, *setup.capsule);
+    p.rind_Pa = mechanics::rindOf(p.problem.body, p.surface, 1e3 * setup.capsule->tension_N_per_mm);
   p.bar = barOf(body, bar, *bar.at_mm, shift_m);
   if (bar.travel_mm)
     p.travel_m = mmToM * *bar.travel_mm;

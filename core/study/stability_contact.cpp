@@ -68,14 +68,11 @@ mechanics::ContactProblem lobe(double shear_kPa, double poisson, double capsule_
   const mechanics::VoxelMesh mesh(body);
   p.problem.f_N = mechanics::NodalField::Zero(3, mesh.nodeCount());
   std::map<int, double> stiffness_N_m;
-  if (capsule_N_m > 0) p.rind_Pa.assign(body.E_Pa.size(), 0.0);
+  if (capsule_N_m > 0) p.rind_Pa = mechanics::rindOf(body, p.surface, capsule_N_m);
   for (const mechanics::SurfaceSample& s : p.surface) {
     const double seen = std::max(0.0, s.normal.y()) + std::max(0.0, s.normal.z());
     for (const auto& [node, share] : mechanics::sharesOf(mesh, s.p_m))
       stiffness_N_m[node] += share * seen * s.area_m2 * bed_Pa_m;
-    if (capsule_N_m > 0)
-      if (const auto c = mechanics::carrierCell(mesh, s.p_m))
-        p.rind_Pa[body.cell(c->x(), c->y(), c->z())] += capsule_N_m * s.area_m2 / body.h_m.prod();
   }
   for (const auto& [node, k] : stiffness_N_m)
     if (k > 0) p.problem.supports.springs.push_back({node, k * Eigen::Matrix3d::Identity()});

@@ -62,7 +62,7 @@ class Journey(unittest.TestCase):
         page = (out / "report.html").read_text()
         self.assertIn("of the difference MRE against atlas", page)
         self.assertIn("At the retractor, error from the size of the cells", page)
-        self.assertAlmostEqual(r["load_N"][1], -r["model"]["mass_kg"] * 9.81, delta=1e-4)
+        self.assertAlmostEqual(r["load_N"][1], -r["model"]["mass_kg"] * 9.81, delta=2e-5)  # the solver's 1e-6
         for name in r["files"]:
             self.assertTrue((out / name).exists(), name)
 

@@ -399,7 +399,7 @@ class Journey : public QObject, private glisson::test::WindowBench {
     find<QDoubleSpinBox>("retractorDiameter")->setValue(10.0);
   }
 
-  void theWindowsSceneIsThatOfTheSyntheticPatient() {
+  void theWindowsSceneIsThatOfTheSyntheticPatientUnderALinearPatch() {
     // Outlines of the patient's own structure set and the parameters as the window starts with them, against the scene
     // that lies beside the patient, its bar made the linear patch that the window moves live: the same numbers. Pictures are
     // left out on both sides, they change no number.

@@ -8,7 +8,8 @@
 namespace glisson::session {
 
 /// What can be set on the Model and Retract pages; everything goes into the scene file. The defaults are those of the
-/// scene that comes with a synthetic patient, so that window and command line show the same numbers.
+/// scene that comes with a synthetic patient but for the retractor: the window's is the linear patch that it moves live,
+/// the scene's a rigid bar in large deformation. The case that is saved says so: run by command it gives the window's numbers.
 struct Parameters {
   // Model
   double poisson = defaults::poisson;  ///< unitless

@@ -86,7 +86,7 @@ GLISSON_INLINE double forcesOf(const CellModes& modes, const CellRow<double, dou
     }
     storeModes(modes, row, i, s, carry);
   }
-  storeLast<double, Bytes>(row, carry);
+  storeLastNode<lanes>(row, carry);
   double sum = 0;
   for (std::size_t l = 0; l < lanes; ++l) sum += total[l];
   return sum;
@@ -193,7 +193,7 @@ GLISSON_INLINE void tangentOf(const CellModes& modes, const CellRow<float, float
     s[6] = (mu * static_cast<float>(modes.w[6])) * d[6];
     storeModes(modes, row, i, s, carry);
   }
-  storeLast<float, Bytes>(row, carry);
+  storeLastNode<lanes>(row, carry);
 }
 
 template <int Bytes>

@@ -44,15 +44,7 @@ template <class T, int Bytes, class Row>
 GLISSON_INLINE void loadModes(const CellModes& modes, const Row& row, std::size_t i, Triple<T, Bytes> (&d)[7]) {
   using V = Lanes<T, Bytes>;
   V w[2][4][3];
-#pragma GCC unroll 4
-  for (int r = 0; r < 4; ++r)
-#pragma GCC unroll 3
-    for (int c = 0; c < 3; ++c) {
-      const V left = *reinterpret_cast<const V*>(row.in[r][c] + i);
-      const V right = *reinterpret_cast<const V*>(row.in[r][c] + i + 1);
-      w[0][r][c] = left + right;
-      w[1][r][c] = left - right;
-    }
+  loadRows(row, i, w);
   transformRows(w);
 #pragma GCC unroll 7
   for (int m = 0; m < 7; ++m) {
@@ -78,25 +70,7 @@ GLISSON_INLINE void storeModes(const CellModes& modes, const Row& row, std::size
     w[p & 1][p >> 1][2] = a * s[m].z;
   }
   transformRows(w);
-#pragma GCC unroll 4
-  for (int r = 0; r < 4; ++r)
-#pragma GCC unroll 3
-    for (int c = 0; c < 3; ++c) {
-      const V toLeft = w[0][r][c] + w[1][r][c];
-      const V toRight = w[0][r][c] - w[1][r][c];
-      V shifted;
-      shiftIn(carry[r][c], toRight, shifted, std::make_index_sequence<lanes>{});
-      carry[r][c] = toRight;
-      V& out = *reinterpret_cast<V*>(row.out[r][c] + i);
-      out += toLeft + shifted;
-    }
-}
-
-template <class T, int Bytes, class Row>
-GLISSON_INLINE void storeLast(const Row& row, const Lanes<T, Bytes> (&carry)[4][3]) {
-  constexpr std::size_t lanes = static_cast<std::size_t>(Bytes) / sizeof(T);
-  for (int r = 0; r < 4; ++r)
-    for (int c = 0; c < 3; ++c) row.out[r][c][row.n] += carry[r][c][lanes - 1];
+  storeRows<lanes>(row, i, w, carry);
 }
 
 /// What the energy is made of, without cancellation for small displacements: g_m − e_m and the second- and third-order

@@ -51,6 +51,15 @@ std::optional<Eigen::Vector3i> carrierCell(const VoxelMesh& mesh, const Eigen::V
   return best;
 }
 
+std::vector<double> rindOf(const VoxelBody& body, const std::vector<SurfaceSample>& surface, double stiffness_N_m) {
+  const VoxelMesh mesh(body);
+  std::vector<double> rind(body.E_Pa.size(), 0.0);
+  for (const SurfaceSample& s : surface)
+    if (const auto cell = carrierCell(mesh, s.p_m))
+      rind[body.cell(cell->x(), cell->y(), cell->z())] += stiffness_N_m * s.area_m2 / body.h_m.prod();
+  return rind;
+}
+
 SolidLevel finestLevel(const ContactProblem& problem) {
   const VoxelBody& body = problem.problem.body;
   const VoxelMesh mesh(body);

@@ -10,6 +10,10 @@ namespace glisson::mechanics {
 /// The filled cell that carries a point (m, grid axes): the one it lies in, or the nearest within three cells.
 std::optional<Eigen::Vector3i> carrierCell(const VoxelMesh& mesh, const Eigen::Vector3d& p_m);
 
+/// A skin of this stiffness (N/m, Young's modulus times thickness) as a further modulus of the cells that its surface
+/// passes through, Pa per cell: tension over the cell's height. It stiffens them in all directions.
+std::vector<double> rindOf(const VoxelBody& body, const std::vector<SurfaceSample>& surface, double stiffness_N_m);
+
 /// The body's own cells as a level: moduli, clamps and springs.
 SolidLevel finestLevel(const ContactProblem& problem);
 

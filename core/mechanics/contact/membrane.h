@@ -33,7 +33,6 @@ class Membrane {
   /// Samples outside their cell count at the nearest place inside.
   Membrane(const RowLattice& lattice, const Eigen::Vector3d& h_m, const std::vector<SkinSample>& samples, const Skin& skin);
 
-  bool empty() const { return patches_.empty(); }
   /// Energy (J) at displacements u (three arrays of `nodes` values, m); the forces (N) are added to gradient.
   double addForces(const double* u, std::size_t nodes, double* gradient) const;
   void linearise(const double* u, std::size_t nodes);

@@ -11,6 +11,7 @@ constexpr double forcing = 0.1;  ///< of the inner solve
 constexpr int innerLimit = 200;
 constexpr double armijo = 1e-4;
 constexpr int halvings = 12;
+constexpr double deeperOf = 0.25;  ///< of the barrier's width: what a step may lead a sample deeper beyond it
 constexpr double atRounding = 1e-7;  ///< residual that counts as converged where no step helps
 
 double normOf(const std::vector<double>& v) {
@@ -59,8 +60,10 @@ struct Minimiser {
       for (std::size_t d = 0; d < trial.u.size(); ++d) trial.u[d] += scale * step[d];
       trial.s += scale * step.back();
       if (!energy.evaluate(trial, goal.force_N, travels, next)) continue;
-      // Once on the wrong side of the bar a sample does not find back: steps end in the barrier's zone or little deeper than they began.
-      if (next.deepest_m > std::max(energy.barrier().width_m, now.deepest_m + 0.25 * energy.barrier().width_m)) continue;
+      // Once on the wrong side of the bar a sample does not find back: steps end in the barrier's zone, or little deeper
+      // than they began.
+      const double zone_m = energy.barrier().width_m;
+      if (next.deepest_m > std::max(zone_m, now.deepest_m + deeperOf * zone_m)) continue;
       const double fall = now.potential - next.potential;
       const bool rounding = std::abs(fall) <= 1e-11 * (std::abs(now.potential) + std::abs(next.potential));
       if (!(fall >= -armijo * scale * slope) && !(rounding && normOf(next.gradient) < size)) continue;

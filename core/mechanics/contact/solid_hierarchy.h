@@ -30,9 +30,9 @@ class SolidHierarchy {
 
   /// Follower pressures of the next linearise(), in the exact tangent of its top level only.
   void setFollowers(std::vector<FollowerStiffness> followers) { followers_ = std::move(followers); }
-  /// Points of the surface on all levels: cell of the finest level and place (m).
   /// A skin on the surface, on all levels; cells: of the finest level.
   void setSkin(const std::vector<SkinSample>& samples, const Skin& skin);
+  /// Points of the surface on all levels: cell of the finest level and place (m).
   void setPoints(const std::vector<Eigen::Vector3i>& cells, const std::vector<Eigen::Vector3d>& places_m);
 
   /// Tangent of levels `top` and coarser at u (3 nodes of level top, m). False where the coarsest level has no factor.

@@ -16,6 +16,7 @@
 #include "phantom/liver_shape.h"
 #include "phantom/torso.h"
 #include "retraction/hoist_view.h"
+#include "support/messages.h"
 #include "support/support.h"
 
 namespace glisson::retraction {
@@ -24,17 +25,8 @@ namespace {
 using anatomy::test::lattices;
 using anatomy::test::maskOf;
 using Eigen::Vector3d;
+using test::messageOf;
 using testing::HasSubstr;
-
-template <typename F>
-std::string messageOf(F&& f) {
-  try {
-    f();
-  } catch (const BadInput& e) {
-    return e.what();
-  }
-  return "no BadInput";
-}
 
 double ellipsoid(const Vector3d& p, const Vector3d& centre, const Vector3d& radii) {
   return (p - centre).cwiseQuotient(radii).norm();

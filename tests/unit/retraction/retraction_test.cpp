@@ -7,23 +7,15 @@
 #include "comparison/difference.h"
 #include "retraction/body.h"
 #include "retraction/simulate.h"
+#include "support/messages.h"
 #include "support/support.h"
 
 namespace glisson::retraction {
 namespace {
 
 using Eigen::Vector3d;
+using test::messageOf;
 using testing::HasSubstr;
-
-template <typename F>
-std::string messageOf(F&& f) {
-  try {
-    f();
-  } catch (const BadInput& e) {
-    return e.what();
-  }
-  return "no BadInput";
-}
 
 /// A box of E kPa whose grid axes point along the columns of `direction`.
 Model box(const Eigen::Vector3i& cells, const Vector3d& h_mm, double E_kPa, double poisson,
