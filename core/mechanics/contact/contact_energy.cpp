@@ -54,7 +54,7 @@ void ContactEnergy::bringToTouch() {
   for (int step = 0; step < 1000 && s < far_m; ++step) {
     const double g = nearest(s);
     if (g < 1e-7) {
-      for (Eigen::Vector3d& p : bar_->centreline_m) p += s * bar_->hoist;
+      bar_->shift(s * bar_->hoist);
       return;
     }
     s += g;
@@ -66,6 +66,20 @@ void ContactEnergy::bringToTouch() {
 Eigen::Vector3d ContactEnergy::place(std::size_t sample, const State& at) const {
   const SolidLevel& level = hierarchy_.level(top_);
   return surface_[sample].p_m + level.points[sample].at(at.u.data(), level.nodes());
+}
+
+void ContactEnergy::moveBar(const Eigen::Vector3d& by_m) {
+  bar_->shift(by_m);
+  near_.barMoved_m += by_m.norm();
+}
+
+Eigen::Vector3d ContactEnergy::force(const State& at) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const std::uint32_t p : near(at)) {
+    const Gap gap = gapTo(*bar_, place(p, at), at.s);
+    if (barrier_.acts(gap.g_m)) sum -= surface_[p].area_m2 * barrier_.at(gap.g_m).first * gap.n;
+  }
+  return sum;
 }
 
 void ContactEnergy::setLoads(std::size_t top, const std::vector<double>& loads) {
@@ -89,7 +103,7 @@ double ContactEnergy::movedSince(const State& at) const {
     const double x = a[i] - b[i], y = a[n + i] - b[n + i], z = a[2 * n + i] - b[2 * n + i];
     largest = std::max(largest, x * x + y * y + z * z);
   }
-  return spread_ * std::sqrt(largest) + std::abs(at.s - near_.at.s);
+  return spread_ * std::sqrt(largest) + std::abs(at.s - near_.at.s) + near_.barMoved_m;
 }
 
 const std::vector<std::uint32_t>& ContactEnergy::near(const State& at) const {
@@ -100,6 +114,7 @@ const std::vector<std::uint32_t>& ContactEnergy::near(const State& at) const {
   });
   near_.top = top_;
   near_.at = at;
+  near_.barMoved_m = 0;
   near_.samples.clear();
   for (std::size_t p = 0; p < surface_.size(); ++p)
     if (gaps_[p].g_m < reach_m) near_.samples.push_back(static_cast<std::uint32_t>(p));

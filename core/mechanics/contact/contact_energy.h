@@ -43,6 +43,11 @@ class ContactEnergy {
   /// Share of the follower pressures that acts; 1 at first.
   void setPressureShare(double share) { pressureShare_ = share; }
 
+  /// The bar is taken elsewhere, beside its travel.
+  void moveBar(const Eigen::Vector3d& by_m);
+  /// Of the bar on the body, N.
+  Eigen::Vector3d force(const State& at) const;
+
   const RigidBar& bar() const { return *bar_; }
   bool hasBar() const { return bar_.has_value(); }
   const Barrier& barrier() const { return barrier_; }
@@ -79,6 +84,7 @@ class ContactEnergy {
   struct Near {
     std::size_t top = 0;
     State at;
+    double barMoved_m = 0;  ///< beside its travel, since
     std::vector<std::uint32_t> samples;
   };
   mutable Near near_;

@@ -51,6 +51,18 @@ std::optional<Eigen::Vector3i> carrierCell(const VoxelMesh& mesh, const Eigen::V
   return best;
 }
 
+Eigen::Vector3i nearestCell(const VoxelMesh& mesh, const Eigen::Vector3d& p_m) {
+  if (const auto cell = carrierCell(mesh, p_m)) return *cell;
+  Eigen::Vector3i best = mesh.cellOf(0);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < mesh.cellCount(); ++c) {
+    const Eigen::Vector3i at = mesh.cellOf(c);
+    const double d = ((at.cast<double>() + Eigen::Vector3d::Constant(0.5)).cwiseProduct(mesh.h_m()) - p_m).squaredNorm();
+    if (d < nearest) nearest = d, best = at;
+  }
+  return best;
+}
+
 std::vector<double> rindOf(const VoxelBody& body, const std::vector<SurfaceSample>& surface, double stiffness_N_m) {
   const VoxelMesh mesh(body);
   std::vector<double> rind(body.E_Pa.size(), 0.0);
@@ -150,6 +162,17 @@ std::vector<std::vector<double>> loadsOnLevels(const SolidHierarchy& hierarchy, 
     loads.push_back(std::move(next));
   }
   return loads;
+}
+
+std::size_t pathLevel(const SolidHierarchy& hierarchy, const ContactProblem& problem) {
+  constexpr double coarsestOfRadius = 1.4;
+  std::size_t l = 0;
+  for (const Fixation& f : problem.problem.supports.fixations)
+    if (!f.value_m.isZero(0)) return 0;
+  while (problem.bar && l + 2 < hierarchy.levels() &&
+         hierarchy.level(l + 1).moduli.h_m.maxCoeff() <= coarsestOfRadius * problem.bar->radius_m)
+    ++l;
+  return l;
 }
 
 std::vector<double> prescribedOnFinest(const SolidLevel& level, const ContactProblem& problem) {

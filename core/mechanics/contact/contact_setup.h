@@ -9,6 +9,8 @@ namespace glisson::mechanics {
 
 /// The filled cell that carries a point (m, grid axes): the one it lies in, or the nearest within three cells.
 std::optional<Eigen::Vector3i> carrierCell(const VoxelMesh& mesh, const Eigen::Vector3d& p_m);
+/// The nearest filled cell, however far.
+Eigen::Vector3i nearestCell(const VoxelMesh& mesh, const Eigen::Vector3d& p_m);
 
 /// A skin of this stiffness (N/m, Young's modulus times thickness) as a further modulus of the cells that its surface
 /// passes through, Pa per cell: tension over the cell's height. It stiffens them in all directions.
@@ -25,6 +27,10 @@ std::vector<SurfaceSample> carriedSurface(SolidHierarchy& hierarchy, const Conta
 
 /// Dead loads (3 nodes, N) per level; a coarse level's do the same work on its displacements.
 std::vector<std::vector<double>> loadsOnLevels(const SolidHierarchy& hierarchy, const ContactProblem& problem);
+
+/// The coarsest level whose cells can still follow the bar: a path is followed there. The finest where displacements are
+/// prescribed.
+std::size_t pathLevel(const SolidHierarchy& hierarchy, const ContactProblem& problem);
 
 /// Prescribed displacements at the clamps of the finest level, 0 elsewhere, m.
 std::vector<double> prescribedOnFinest(const SolidLevel& level, const ContactProblem& problem);

@@ -24,7 +24,6 @@ constexpr double fallen = 0.98;         ///< of the largest force, where no step
 constexpr double slipTravel_m = 12e-3;  ///< past the largest force without reaching it again
 constexpr int meetingTries = 40;        ///< travels tried for one force
 constexpr int mostOnFinest = 300;        ///< iterations there, once the path is done
-constexpr double coarsePathCells = 1.4; ///< largest cells of the path over the bar's radius
 
 using State = ContactEnergy::State;
 
@@ -51,7 +50,7 @@ struct Solver {
 
   void useLevel(std::size_t l) { energy.setLoads(l, loads[l]); }
   NewtonRun converge(State& state, std::optional<double> force_N, double tolerance, int limit) {
-    if (energy.top() == 0 && energy.top() < pathLevel() && spent > mostOnFinest) return {};
+    if (energy.top() == 0 && energy.top() < pathLevel(hierarchy, problem) && spent > mostOnFinest) return {};
     const NewtonRun run = minimise(hierarchy, energy, state, {force_N, tolerance, limit}, progress);
     out.newton += run.iterations;
     if (energy.top() == 0) spent += run.iterations;
@@ -69,19 +68,7 @@ struct Solver {
   bool meetForceFromTrail(State& state, double tolerance, NewtonRun& run);
   bool finish(State& state);
   bool loadInSteps(State& state);
-  std::size_t pathLevel() const;
 };
-
-/// The coarsest cells that can still follow the bar.
-std::size_t Solver::pathLevel() const {
-  std::size_t l = 0;
-  for (const Fixation& f : problem.problem.supports.fixations)
-    if (!f.value_m.isZero(0)) return 0;
-  while (problem.bar && l + 2 < hierarchy.levels() &&
-         hierarchy.level(l + 1).moduli.h_m.maxCoeff() <= coarsePathCells * problem.bar->radius_m)
-    ++l;
-  return l;
-}
 
 /// Travel in steps from `state` until force or travel is reached (true), or the force falls or no step is possible.
 bool Solver::follow(State& state) {
@@ -333,7 +320,7 @@ ContactSolution solveOnce(const ContactProblem& problem, const ContactOptions& o
   const auto start = std::chrono::steady_clock::now();
   Solver solver(problem, options, progress);
   State state;
-  solver.useLevel(solver.pathLevel());
+  solver.useLevel(pathLevel(solver.hierarchy, problem));
   state.u = solver.energy.top() == 0 ? prescribedOnFinest(solver.hierarchy.level(0), problem)
                                      : std::vector<double>(3 * solver.hierarchy.level(solver.energy.top()).nodes(), 0.0);
   bool good = false;

@@ -8,7 +8,6 @@ namespace {
 
 constexpr double largestStep_m = 0.010;
 constexpr double forcing = 0.1;  ///< of the inner solve
-constexpr int innerLimit = 200;
 constexpr double armijo = 1e-4;
 constexpr int halvings = 12;
 constexpr double deeperOf = 0.25;  ///< of the barrier's width: what a step may lead a sample deeper beyond it
@@ -41,7 +40,7 @@ struct Minimiser {
   bool direction(bool positive, NewtonRun& run) {
     std::vector<double> b(now.gradient.size());
     for (std::size_t i = 0; i < b.size(); ++i) b[i] = -now.gradient[i];
-    const TangentSolve solve = hierarchy.solve(energy.top(), b, step, forcing, innerLimit, positive);
+    const TangentSolve solve = hierarchy.solve(energy.top(), b, step, forcing, goal.innerLimit, positive);
     run.inner += solve.iterations;
     if (!positive) run.indefinite = solve.outcome == TangentOutcome::Indefinite;
     if (!travels) step.back() = 0;

@@ -12,6 +12,7 @@ struct NewtonGoal {
   std::optional<double> force_N;  ///< the bar is free and pushed by this; else it stays where it is
   double tolerance = 1e-6;        ///< on ‖gradient‖ / load
   int limit = 60;                 ///< iterations
+  int innerLimit = 200;           ///< iterations of the inner solve with each tangent
 };
 
 struct NewtonRun {

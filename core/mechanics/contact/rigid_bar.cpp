@@ -7,6 +7,10 @@
 
 namespace glisson::mechanics {
 
+void RigidBar::shift(const Eigen::Vector3d& by_m) {
+  for (Eigen::Vector3d& p : centreline_m) p += by_m;
+}
+
 Eigen::Vector3d RigidBar::centre_m() const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double length = 0;

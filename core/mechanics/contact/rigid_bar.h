@@ -12,6 +12,7 @@ struct RigidBar {
   double radius_m = 0.005;
   Eigen::Vector3d hoist{0, -1, 0};  ///< unit
 
+  void shift(const Eigen::Vector3d& by_m);
   Eigen::Vector3d centre_m() const;  ///< mean of the centre line, at travel 0
 };
 
