@@ -12,7 +12,7 @@ namespace {
 struct Arguments {
   std::filesystem::path scene;
   live::ServerOptions options;
-  std::string frame = "ras";
+  std::string frame = "ras", model = "auto";
 };
 
 int serveScene(const Arguments& a, const Context& context) {
@@ -25,13 +25,15 @@ int serveScene(const Arguments& a, const Context& context) {
   if (watched.empty())
     throw BadInput(
         "nothing to follow: the scene has neither vessels (a patient's MRI) nor probes; add {\"probe\": ...}");
-  const retraction::LiveRetraction mre(models.model, scene.setup, watched, false, progress.part(0.6, 0.8));
-  std::optional<retraction::LiveRetraction> atlas;
-  if (models.atlas) atlas.emplace(*models.atlas, scene.setup, watched, false, progress.part(0.8, 1.0));
+  const retraction::LiveKind kind = a.model == "contact"     ? retraction::LiveKind::Contact
+                                    : a.model == "condensed" ? retraction::LiveKind::Condensed
+                                                             : retraction::liveKindOf(scene.setup);
+  const retraction::LiveLivers livers = retraction::makeLive(
+      models.model, models.atlas ? &*models.atlas : nullptr, scene.setup, watched, kind, progress.part(0.6, 1.0));
   live::ServerOptions options = a.options;
   options.ras = a.frame == "ras";
   const live::ServerStatistics s = live::serve(
-      mre, atlas ? &*atlas : nullptr, watched, options,
+      livers, watched, options,
       [&](int port) {
         context.note("OpenIGTLink on " + options.bind + ", port " + std::to_string(port) +
                      (options.bind == "127.0.0.1" ? " (this computer alone; --bind opens it to a network), "
@@ -40,17 +42,22 @@ int serveScene(const Arguments& a, const Context& context) {
                      " landmarks; Ctrl+C ends");
       },
       progress);
-  const Json j = {{"landmarks", watched.size()},
+  const bool contact = kind == retraction::LiveKind::Contact;
+  const Json j = {{"model", contact ? "contact" : "condensed"},
+                  {"dofs", livers.mre->dofs()},
+                  {"landmarks", watched.size()},
                   {"frames", s.frames},
                   {"poses", s.poses},
                   {"rate_hz", s.rate_hz},
                   {"evaluate_us", s.evaluate_us},
+                  {"remaining_mm", s.remaining_mm},
                   {"latency_ms", s.latency_ms},
                   {"latency_max_ms", s.latency_max_ms}};
   std::ostringstream text;
   text.precision(4);
   text << s.frames << " frames at " << s.rate_hz << " Hz, " << s.poses << " poses; an answer took " << s.evaluate_us
        << " us, from pose to answer " << s.latency_ms << " ms (at most " << s.latency_max_ms << " ms)\n";
+  if (contact) text << "the livers were at most " << s.remaining_mm << " mm from equilibrium (estimate)\n";
   context.print(j, text.str());
   return Ok;
 }
@@ -66,6 +73,10 @@ void addLive(CLI::App& app, Context& context) {
   verb->add_option("--rate", a->options.rate_hz, "frames a second");
   verb->add_option("--landmarks", a->options.landmarks, "landmarks sent at most");
   verb->add_option("--frames", a->options.frames, "end after so many; 0 = run until Ctrl+C");
+  verb->add_option("--model", a->model,
+                   "contact: a rigid bar in large deformation; condensed: a linear patch, microseconds an answer; auto: as "
+                   "the scene's retractor")
+      ->check(CLI::IsMember({"auto", "contact", "condensed"}));
   verb->add_option("--frame", a->frame, "coordinates of the messages")->check(CLI::IsMember({"ras", "lps"}));
   verb->callback([&context, a] { context.action = [&context, a] { return serveScene(*a, context); }; });
 }

@@ -180,44 +180,47 @@ bool send(igtl::Socket& socket, igtl::MessageBase& message, const char* name, ig
 
 class Session {
  public:
-  Session(const retraction::LiveRetraction& mre, const retraction::LiveRetraction* atlas,
-          const std::vector<Eigen::Vector3d>& landmarks_mm, const ServerOptions& options)
-      : mre_(mre), atlas_(atlas), rest_mm_(landmarks_mm), options_(options) {
+  Session(const retraction::LiveLivers& livers, const std::vector<Eigen::Vector3d>& landmarks_mm,
+          const ServerOptions& options)
+      : livers_(livers), rest_mm_(landmarks_mm), options_(options) {
     const std::size_t n = landmarks_mm.size(), most = std::min(n, std::max<std::size_t>(1, options.landmarks));
     for (std::size_t i = 0; i < most; ++i) sent_.push_back(i * n / most);
-    force_N_ = mre.sceneForce_N();
-    atlasForce_N_ = force_N_;
+    mre_.force_N = atlas_.force_N = livers.mre->sceneForce_N();
   }
 
   /// The tool is taken to a place: both livers follow it.
   void moveTo(const Eigen::Vector3d& at_mm) {
-    force_N_ = mre_.forceFor(at_mm - mre_.toolPoint_mm());
-    if (atlas_) atlasForce_N_ = atlas_->forceFor(at_mm - atlas_->toolPoint_mm());
+    mre_ = {at_mm - livers_.mre->toolPoint_mm(), {}};
+    if (livers_.atlas) atlas_ = {at_mm - livers_.atlas->toolPoint_mm(), {}};
   }
 
-  void evaluate(double& spent_us) {
+  void follow(ServerStatistics& s) {
     const auto start = Clock::now();
-    mre_.evaluate(force_N_, u_mm_);
-    if (atlas_) atlas_->evaluate(atlasForce_N_, atlas_u_mm_);
-    spent_us += 1e3 * ms(Clock::now() - start);
+    followed_ = true;
+    now_ = retraction::followBoth(livers_, mre_, atlas_);
+    livers_.mre->displacements(u_mm_);
+    if (livers_.atlas) livers_.atlas->displacements(atlas_u_mm_);
+    s.evaluate_us += 1e3 * ms(Clock::now() - start);
+    s.remaining_mm = std::max({s.remaining_mm, now_.mre.remaining_mm, now_.atlas.remaining_mm});
   }
+  bool atRest() const { return followed_ && now_.mre.atRest && now_.atlas.atRest; }
 
   bool sendFrame(igtl::Socket& socket) {
     igtl::TimeStamp::Pointer time = igtl::TimeStamp::New();
     time->GetTime();
     if (!sent_.empty()) {
       if (!sendPoints(socket, "LandmarksMRE", "MRE", u_mm_, time)) return false;
-      if (atlas_ && !sendPoints(socket, "LandmarksAtlas", "atlas", atlas_u_mm_, time)) return false;
+      if (livers_.atlas && !sendPoints(socket, "LandmarksAtlas", "atlas", atlas_u_mm_, time)) return false;
     }
     igtl::TransformMessage::Pointer reached = igtl::TransformMessage::New();
     igtl::Matrix4x4 matrix;
     igtl::IdentityMatrix(matrix);
-    const Eigen::Vector3d tool = turned(mre_.toolPoint_mm() + mre_.toolDisplacement_mm(force_N_), options_.ras);
+    const Eigen::Vector3d tool = turned(livers_.mre->toolPoint_mm() + now_.mre.tool_mm, options_.ras);
     for (int a = 0; a < 3; ++a) matrix[a][3] = static_cast<float>(tool[a]);
     reached->SetMatrix(matrix);
     if (!send(socket, *reached, "RetractorReached", time)) return false;
     igtl::StringMessage::Pointer force = igtl::StringMessage::New();
-    const Eigen::Vector3d f = turned(force_N_, options_.ras);
+    const Eigen::Vector3d f = turned(now_.mre.force_N, options_.ras);
     char text[96];
     std::snprintf(text, sizeof text, "%.6g %.6g %.6g", f.x(), f.y(), f.z());
     force->SetString(text);
@@ -241,21 +244,23 @@ class Session {
     return send(socket, *message, name, time);
   }
 
-  const retraction::LiveRetraction& mre_;
-  const retraction::LiveRetraction* atlas_;
+  const retraction::LiveLivers& livers_;
   const std::vector<Eigen::Vector3d>& rest_mm_;
   ServerOptions options_;
   std::vector<std::size_t> sent_;
-  Eigen::Vector3d force_N_, atlasForce_N_;
+  retraction::LiveTarget mre_, atlas_;
+  retraction::LiveAnswers now_;
+  bool followed_ = false;
   Eigen::Matrix3Xd u_mm_, atlas_u_mm_;
 };
 
 }  // namespace
 
-ServerStatistics serve(const retraction::LiveRetraction& mre, const retraction::LiveRetraction* atlas,
-                       const std::vector<Eigen::Vector3d>& landmarks_mm, const ServerOptions& options,
+ServerStatistics serve(const retraction::LiveLivers& livers, const std::vector<Eigen::Vector3d>& landmarks_mm,
+                       const ServerOptions& options,
                        const std::function<void(int)>& listening, const Progress& progress) {
-  if (landmarks_mm.size() != static_cast<std::size_t>(mre.points()) || (atlas && atlas->points() != mre.points()))
+  if (landmarks_mm.size() != static_cast<std::size_t>(livers.mre->points()) ||
+      (livers.atlas && livers.atlas->points() != livers.mre->points()))
     throw BadArgument("serve: the models do not watch the landmarks that were given");
   if (!(options.rate_hz > 0.0 && options.rate_hz <= 1000.0))
     throw BadInput("the rate must be above 0 and at most 1000 Hz");
@@ -264,12 +269,19 @@ ServerStatistics serve(const retraction::LiveRetraction& mre, const retraction::
     throw BadInput("port " + std::to_string(options.port) + " of " + options.bind +
                    " cannot be opened; is another program using it (--port), or is it no address of this computer "
                    "(--bind)?");
-  if (listening) listening(server->GetServerPort());
-
   ServerStatistics s;
-  double connected_ms = 0.0, spent_us = 0.0, latency_ms = 0.0;
+  double connected_ms = 0.0, latency_ms = 0.0;
   long answered = 0;
   const auto tick = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / options.rate_hz));
+  // The first client meets the livers as the scene's own hoist leaves them.
+  constexpr int most = 400;
+  Session first(livers, landmarks_mm, options);
+  for (int frame = 0; frame < most && !first.atRest(); ++frame) {
+    progress.check();
+    first.follow(s);
+  }
+  s = {};
+  if (listening) listening(server->GetServerPort());
   const auto finished = [&] { return options.frames > 0 && s.frames >= options.frames; };
   try {
     while (!finished()) {
@@ -280,8 +292,8 @@ ServerStatistics serve(const retraction::LiveRetraction& mre, const retraction::
       client->SetSendTimeout(2000);
       Poses poses;
       std::atomic<bool> stop = false;
-      std::thread receiver([&] { receive(*client, mre.toolPoint_mm(), options.ras, poses, stop); });
-      Session session(mre, atlas, landmarks_mm, options);
+      std::thread receiver([&] { receive(*client, livers.mre->toolPoint_mm(), options.ras, poses, stop); });
+      Session session(livers, landmarks_mm, options);
       const auto start = Clock::now();
       auto next = start;
       const auto leave = [&] {
@@ -296,7 +308,7 @@ ServerStatistics serve(const retraction::LiveRetraction& mre, const retraction::
           progress.check();
           const auto pose = poses.takeUntil(next);
           if (pose) session.moveTo(pose->at_mm);
-          session.evaluate(spent_us);
+          session.follow(s);
           if (!session.sendFrame(*client)) break;
           ++s.frames;
           if (pose) {
@@ -318,7 +330,7 @@ ServerStatistics serve(const retraction::LiveRetraction& mre, const retraction::
   }
   server->CloseSocket();
   if (connected_ms > 0.0) s.rate_hz = 1e3 * static_cast<double>(s.frames) / connected_ms;
-  if (s.frames > 0) s.evaluate_us = spent_us / static_cast<double>(s.frames);
+  if (s.frames > 0) s.evaluate_us /= static_cast<double>(s.frames);
   if (answered > 0) s.latency_ms = latency_ms / static_cast<double>(answered);
   return s;
 }

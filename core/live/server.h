@@ -24,7 +24,8 @@ struct ServerStatistics {
   long frames = 0;                                ///< sent
   long poses = 0;                                 ///< received
   double rate_hz = 0.0;                           ///< frames over the time that a client was connected
-  double evaluate_us = 0.0;                       ///< mean time of one answer for both stiffnesses
+  double evaluate_us = 0.0;                       ///< mean time of one answer for both stiffnesses, side by side
+  double remaining_mm = 0.0;                      ///< largest estimated distance from equilibrium of a frame sent
   double latency_ms = 0.0, latency_max_ms = 0.0;  ///< from a whole pose read to its answer handed to the network
 };
 
@@ -34,13 +35,14 @@ struct ServerStatistics {
 ///             POINT "LandmarksAtlas"      the same with the textbook stiffness (where atlas is given)
 ///             TRANSFORM "RetractorReached" where the tool is, as it was taken
 ///             STRING "RetractorForce"     "x y z" in N that the tool pulls with (measured stiffness)
-/// Until a pose arrives the scene's own hoist acts. Before the first message nothing moves; a pose more than 100 mm
-/// from the contact's rest, or not finite, is ignored; a message whose body has another size than its type asks for ends
+/// Until a pose arrives the scene's own hoist acts; a pose takes both livers to the same place of the tool. Under contact
+/// a liver that is not there yet goes on with every frame. A pose more than 100 mm from the contact's rest, or not
+/// finite, is ignored; a message whose body has another size than its type asks for ends
 /// the connection. Carries no identity of the patient; the protocol knows no password, so beyond this computer use it on
-/// a network of one's own. landmarks_mm: at rest, LPS, as both models watch
+/// a network of one's own. landmarks_mm: at rest, LPS, as both livers watch
 /// them. listening: called with the port once it can be connected to. Throws BadInput where the address or the port cannot be opened.
-ServerStatistics serve(const retraction::LiveRetraction& mre, const retraction::LiveRetraction* atlas,
-                       const std::vector<Eigen::Vector3d>& landmarks_mm, const ServerOptions& options,
+ServerStatistics serve(const retraction::LiveLivers& livers, const std::vector<Eigen::Vector3d>& landmarks_mm,
+                       const ServerOptions& options,
                        const std::function<void(int)>& listening = {}, const Progress& progress = {});
 
 }  // namespace glisson::live

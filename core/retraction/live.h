@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/progress.h"
@@ -8,42 +10,66 @@
 
 namespace glisson::retraction {
 
-/// A retraction that follows the tool: the full voxel model condensed to the three directions of the tool's contact and
-/// to the points that are watched. Made once (one solve per direction, and one for all other loads together); then an
-/// answer is one small product, far below a video frame. Linear: strains as in the scene's own validity.
+/// What the hand asks of the tool.
+struct LiveTarget {
+  Eigen::Vector3d tool_mm = Eigen::Vector3d::Zero();  ///< displacement of the tool from rest, LPS
+  /// The tool pulls with this, N in LPS, and goes where that leads; a rigid bar keeps its place across the hoist.
+  std::optional<Eigen::Vector3d> force_N;
+};
+
+/// Where the tool is after a frame, and how far the liver is from rest.
+struct LiveAnswer {
+  Eigen::Vector3d tool_mm = Eigen::Vector3d::Zero();  ///< reached, from rest, LPS
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< of the tool on the liver, LPS
+  double remaining_mm = 0.0;                          ///< estimated largest distance from the equilibrium
+  bool atRest = true;                                 ///< what was asked for is reached: further frames change nothing
+  bool slips = false;                                 ///< the liver does not bear the force asked for
+};
+
+/// A liver that follows the tool, frame by frame.
 class LiveRetraction {
  public:
-  /// The tool is the scene's retractor; its contact stays where it is on the liver. points_mm: watched points, LPS; one
-  /// outside the body moves with the nearest node. everyNode: the nodes of the mesh are watched as well.
-  /// Throws BadInput (no retractor in the scene, prescribed displacements, what toMechanics refuses), SolverFailed,
-  /// Cancelled.
-  LiveRetraction(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& points_mm, bool everyNode,
-                 const Progress& progress = {});
+  virtual ~LiveRetraction() = default;
 
   const Eigen::Vector3d& toolPoint_mm() const { return toolPoint_mm_; }  ///< of the contact at rest, LPS
-  /// Rest positions of the nodes, LPS; empty unless everyNode.
-  const std::vector<Eigen::Vector3d>& nodes_mm() const { return nodes_mm_; }
-  int points() const { return points_; }
-
-  /// What the tool has to pull with, N in LPS, so that its contact moves by this much (mean over the contact), mm.
-  Eigen::Vector3d forceFor(const Eigen::Vector3d& toolDisplacement_mm) const;
-  /// How the contact moves under a force of the tool, mm.
-  Eigen::Vector3d toolDisplacement_mm(const Eigen::Vector3d& force_N) const;
   /// The force of the scene itself: size and direction of the hoist.
   const Eigen::Vector3d& sceneForce_N() const { return sceneForce_N_; }
+  int points() const { return points_; }
+  int dofs() const { return dofs_; }
 
-  /// Displacement, mm in LPS, of the points and then of the nodes, under a tool force; 3 × (points + nodes). Nothing is
-  /// allocated where `u_mm` has that size already.
-  void evaluate(const Eigen::Vector3d& force_N, Eigen::Matrix3Xd& u_mm) const;
+  /// One frame towards the target.
+  virtual LiveAnswer follow(const LiveTarget& target) = 0;
+  /// Displacement of the watched points now, mm in LPS; 3 × points. Nothing is allocated where `u_mm` has that size.
+  virtual void displacements(Eigen::Matrix3Xd& u_mm) const = 0;
 
- private:
+ protected:
   Eigen::Vector3d toolPoint_mm_ = Eigen::Vector3d::Zero(), sceneForce_N_ = Eigen::Vector3d::Zero();
-  std::vector<Eigen::Vector3d> nodes_mm_;
-  int points_ = 0;
-  Eigen::Matrix<double, Eigen::Dynamic, 3> response_mm_N_;  ///< 3 × watched rows, per N along L, P, S
-  Eigen::VectorXd constant_mm_;                             ///< of all other loads
-  Eigen::Matrix3d compliance_mm_N_ = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d toolConstant_mm_ = Eigen::Vector3d::Zero();
+  int points_ = 0, dofs_ = 0;
 };
+
+/// How a liver follows. Contact: a rigid bar under large deformation on coarse cells, some milliseconds a frame.
+/// Condensed: a linear patch of pressure, condensed to the watched points; microseconds, for thousands of them.
+enum class LiveKind { Contact, Condensed };
+
+/// Contact where the scene's retractor is a rigid bar, else condensed.
+LiveKind liveKindOf(const Setup& setup);
+
+/// The livers with both stiffnesses; atlas is null where there is no second one.
+struct LiveLivers {
+  std::unique_ptr<LiveRetraction> mre, atlas;
+  LiveKind kind = LiveKind::Condensed;
+};
+
+/// points_mm: watched points, LPS; one outside the body moves with what is nearest. A bar without a place is placed as
+/// for a run. Throws BadInput (no retractor in the scene, prescribed displacements with a patch, what the model refuses),
+/// SolverFailed, Cancelled.
+LiveLivers makeLive(const Model& model, const Model* atlas, const Setup& setup,
+                    const std::vector<Eigen::Vector3d>& points_mm, LiveKind kind, const Progress& progress = {});
+
+struct LiveAnswers {
+  LiveAnswer mre, atlas;
+};
+/// One frame of both, side by side where a frame takes long.
+LiveAnswers followBoth(const LiveLivers& livers, const LiveTarget& mre, const LiveTarget& atlas);
 
 }  // namespace glisson::retraction

@@ -1,5 +1,6 @@
 """The retraction over OpenIGTLink, read byte by byte with nothing but the standard library."""
 import itertools
+import json
 import pathlib
 import re
 import socket
@@ -29,7 +30,8 @@ def message(connection):
 
 
 class Live(unittest.TestCase):
-    def test_streams_landmarks_of_both_stiffnesses(self):
+    def stream(self, frames, *options):
+        """The first four messages, those of the last frame, and the record of a stream of both stiffnesses."""
         with tempfile.TemporaryDirectory() as temporary:
             folder = pathlib.Path(temporary)
             cells = list(itertools.product(range(8), range(8), range(8)))
@@ -37,9 +39,10 @@ class Live(unittest.TestCase):
             scene = write_scene(folder, {
                 "geometry": {"kind": "mask", "file": "mask.nii.gz"}, "material": {"youngs_kPa": 12},
                 "supports": [{"region": {"surface": "all"}, "kind": "spring", "stiffness_kPa_per_mm": 0.1}],
-                "loads": [{"kind": "retractor", "length_mm": 40, "force": 2}], "compare": {"against": "atlas"},
-                "outputs": [{"probe": [[-20, -20, 20], [-30, -30, 30]]}]})
-            process = subprocess.Popen([CLI, "live", str(scene), "--port", "0", "--frames", "3", "--rate", "100"],
+                "loads": [{"kind": "retractor", "length_mm": 40, "force": 2, "at": [-28, 0, 28]}],
+                "compare": {"against": "atlas"}, "outputs": [{"probe": [[-20, -20, 20], [-30, -30, 30]]}]})
+            process = subprocess.Popen([CLI, "live", str(scene), "--port", "0", "--frames", str(frames), "--rate", "100",
+                                        "--json", *options],
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
             port = None
             for line in process.stderr:
@@ -49,22 +52,41 @@ class Live(unittest.TestCase):
                     break
             self.assertIsNotNone(port)
             with socket.create_connection(("127.0.0.1", port), timeout=20) as connection:
-                seen = [message(connection) for _ in range(3 * 4)][:4]
+                seen = [message(connection) for _ in range(frames * 4)]
             out = process.stdout.read()
             process.wait(timeout=60)
             process.stdout.close()
             process.stderr.close()
             self.assertEqual(process.returncode, 0)
-            self.assertIn("frames", out)
-        self.assertEqual([(k, n) for k, n, _ in seen],
+        return seen[:4], seen[-4:], json.loads(out)
+
+    def check(self, first):
+        self.assertEqual([(k, n) for k, n, _ in first],
                          [("POINT", "LandmarksMRE"), ("POINT", "LandmarksAtlas"), ("TRANSFORM", "RetractorReached"),
                           ("STRING", "RetractorForce")])
-        self.assertEqual(len(seen[0][2]), 2 * 136)
+        self.assertEqual(len(first[0][2]), 2 * 136)
         # Points are RAS: the probe at LPS (-20, -20, 20) lies near (20, 20, 20), and the softer atlas has moved further.
-        mre, atlas = (struct.unpack_from(">3f", body, 100) for _, _, body in seen[:2])
+        mre, atlas = (struct.unpack_from(">3f", body, 100) for _, _, body in first[:2])
         self.assertLess(max(abs(a - 20) for a in mre), 10)
         moved = [sum((a - 20) ** 2 for a in p) for p in (mre, atlas)]
         self.assertGreater(moved[1], moved[0])
+
+    def test_streams_landmarks_of_both_stiffnesses_in_contact(self):
+        first, last, record = self.stream(5)
+        self.check(first)
+        self.assertEqual(record["model"], "contact")
+        self.assertEqual(record["frames"], 5)
+        # The scene's own hoist is reached before anyone connects: 2 N towards anterior, and nothing moves any more.
+        force = [float(x) for x in re.findall(rb"[-+.0-9e]+", first[3][2][4:])]
+        self.assertAlmostEqual(force[1], 2.0, delta=0.02)
+        self.assertLess(record["remaining_mm"], 0.05)
+        self.assertEqual(first[0][2], last[0][2])
+
+    def test_streams_the_condensed_answer_where_that_is_asked_for(self):
+        first, _, record = self.stream(3, "--model", "condensed")
+        self.check(first)
+        self.assertEqual(record["model"], "condensed")
+        self.assertEqual(record["remaining_mm"], 0)
 
     def test_says_what_is_missing(self):
         with tempfile.TemporaryDirectory() as temporary:

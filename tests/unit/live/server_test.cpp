@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "retraction/live_condensed.h"
 
 namespace glisson::live {
 namespace {
@@ -115,8 +116,9 @@ class Live : public testing::Test {
  protected:
   Live()
       : points_{{20.0, 20.0, 20.0}, {33.0, 5.0, 11.0}, {40.0, 30.0, 40.0}},
-        mre_(block(9.0f), hoist(), points_, false),
-        atlas_(block(6.0f), hoist(), points_, false) {}
+        livers_{std::make_unique<retraction::CondensedRetraction>(block(9.0f), hoist(), points_, false),
+                std::make_unique<retraction::CondensedRetraction>(block(6.0f), hoist(), points_, false)},
+        mre_(static_cast<const retraction::CondensedRetraction&>(*livers_.mre)) {}
 
   /// Serves in a thread of its own until this object goes.
   int start(ServerOptions options = {}) {
@@ -125,7 +127,7 @@ class Live : public testing::Test {
     auto open = port.get_future();
     served_ = std::async(std::launch::async, [this, options, promise = std::move(port)]() mutable {
       return serve(
-          mre_, &atlas_, points_, options, [&](int p) { promise.set_value(p); }, Progress({}, stop_.get_token()));
+          livers_, points_, options, [&](int p) { promise.set_value(p); }, Progress({}, stop_.get_token()));
     });
     return open.get();
   }
@@ -135,7 +137,8 @@ class Live : public testing::Test {
   }
 
   std::vector<Eigen::Vector3d> points_;
-  retraction::LiveRetraction mre_, atlas_;
+  retraction::LiveLivers livers_;
+  const retraction::CondensedRetraction& mre_;
   std::stop_source stop_;
   std::future<ServerStatistics> served_;
 };
@@ -219,7 +222,7 @@ TEST_F(Live, EndsAfterTheFramesAskedForAtTheRateAskedFor) {
 TEST_F(Live, RefusesAPortThatIsTaken) {
   ServerOptions options;
   options.port = start();
-  EXPECT_THROW(serve(mre_, nullptr, points_, options), BadInput);
+  EXPECT_THROW(serve(livers_, points_, options), BadInput);
   finish();
 }
 

@@ -1,4 +1,4 @@
-#include "retraction/live.h"
+#include "retraction/live_condensed.h"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ TEST_P(Live, IsTheFullSolveUnderTheScenesOwnForce) {
   const std::vector<Eigen::Vector3d> points = {direction() * Eigen::Vector3d(20.0, 20.0, 20.0),
                                                direction() * Eigen::Vector3d(33.0, 5.0, 11.0)};
   const Result full = simulate(model, setup, points);
-  const LiveRetraction live(model, setup, points, true);
+  const CondensedRetraction live(model, setup, points, true);
   EXPECT_NEAR((live.sceneForce_N() - Eigen::Vector3d(0.0, -2.0, 0.0)).norm(), 0.0, 1e-9);
   Eigen::Matrix3Xd u_mm;
   live.evaluate(live.sceneForce_N(), u_mm);
@@ -68,7 +68,7 @@ TEST_P(Live, IsTheFullSolveUnderTheScenesOwnForce) {
 TEST_P(Live, FollowsTheTool) {
   const Model model = block(direction());
   const retraction::Setup setup = setupOf({0.0, -1.0, 0.0}, 2.0, true);
-  const LiveRetraction live(model, setup, {}, false);
+  const CondensedRetraction live(model, setup, {}, false);
   const Eigen::Vector3d wanted(1.5, -4.0, 2.0);
   EXPECT_LT((live.toolDisplacement_mm(live.forceFor(wanted)) - wanted).norm(), 1e-9);
   // Pulling further takes more force, and along the pull.
@@ -80,7 +80,7 @@ TEST_P(Live, PullsInAnyDirectionAsAFullSolveDoes) {
   const Model model = block(direction());
   const Eigen::Vector3d point = direction() * Eigen::Vector3d(40.0, 30.0, 8.0);
   // The contact is laid by the scene's own direction; a force along another one is a sum of the three columns.
-  const LiveRetraction live(model, setupOf({0.0, -1.0, 0.0}, 2.0, false), {point}, false);
+  const CondensedRetraction live(model, setupOf({0.0, -1.0, 0.0}, 2.0, false), {point}, false);
   Eigen::Matrix3Xd all, a, b, c;
   live.evaluate({0.7, -1.1, 0.4}, all);
   live.evaluate({0.7, 0.0, 0.0}, a);
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Grids, Live, testing::Bool());
 TEST(LiveRefuses, AScenesWithoutATool) {
   retraction::Setup setup = setupOf({0.0, -1.0, 0.0}, 2.0, true);
   setup.loads.erase(setup.loads.begin());
-  EXPECT_THROW(LiveRetraction(block(Eigen::Matrix3d::Identity()), setup, {}, false), BadInput);
+  EXPECT_THROW(CondensedRetraction(block(Eigen::Matrix3d::Identity()), setup, {}, false), BadInput);
 }
 
 }  // namespace
