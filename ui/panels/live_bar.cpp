@@ -1,5 +1,6 @@
 #include "panels/live_bar.h"
 
+#include <QComboBox>
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 #include <QSlider>
@@ -13,7 +14,7 @@ namespace glisson::panels {
 
 namespace {
 
-constexpr int reach_mm = 60;        // of the sliders
+constexpr int reach_mm = 80;        // of the sliders
 constexpr double perStep_mm = 0.1;  // of a slider
 constexpr qint64 pause_ms = 1000;   // longer than this between pictures is no frame rate
 
@@ -56,6 +57,15 @@ LiveBar::LiveBar(session::Session& session, views::SceneView& scene, QWidget* pa
   reset_ = button("liveReset", tr("As run"), {}, tr("Back to the force of the run"));
   reset_->setEnabled(false);
   row->addSpacing(10);
+  comparison_ = new QComboBox;
+  comparison_->setObjectName(QStringLiteral("liveComparison"));
+  comparison_->setAccessibleName(tr("What both livers share"));
+  comparison_->addItem(tr("equal force"), QVariant::fromValue(static_cast<int>(session::LiveComparison::EqualForce)));
+  comparison_->addItem(tr("equal travel"), QVariant::fromValue(static_cast<int>(session::LiveComparison::EqualTravel)));
+  comparison_->setToolTip(tr("Equal force: the liver with textbook stiffness is pulled as hard as the measured one, as in "
+                             "the run. Equal travel: the tool goes as far in both"));
+  comparison_->setEnabled(false);
+  row->addWidget(comparison_);
   row->addWidget(reset_);
   column->addLayout(row);
   numbers_ = labelled(tr("Run the retraction; then the retractor can be moved by hand."), "faint");
@@ -66,6 +76,7 @@ LiveBar::LiveBar(session::Session& session, views::SceneView& scene, QWidget* pa
   column->addWidget(speed_);
   connect(live_, &QPushButton::toggled, this, &LiveBar::setLive);
   connect(reset_, &QPushButton::clicked, this, &LiveBar::reset);
+  connect(comparison_, &QComboBox::currentIndexChanged, this, [this] { ask(target_); });
   connect(&scene_, &views::SceneView::toolDragged, this, &LiveBar::moveTool);
   connect(&scene_, &views::SceneView::rendered, this, &LiveBar::pictureDrawn);
   connect(&session_, &session::Session::runFinished, this, &LiveBar::build);
@@ -82,7 +93,8 @@ bool LiveBar::isLive() const {
 
 void LiveBar::build() {
   setLive(false);
-  pair_.reset();
+  hand_.reset();
+  frame_.reset();
   live_->setEnabled(false);
   speed_->clear();
   if (worker_.busy()) {
@@ -96,11 +108,11 @@ void LiveBar::build() {
     numbers_->setText(tr("Run the retraction; then the retractor can be moved by hand."));
     return;
   }
-  auto made = std::make_shared<std::shared_ptr<const session::LivePair>>();
+  auto made = std::make_shared<std::unique_ptr<session::LivePair>>();
   worker_.start(
       [made, result, picture,
        file = std::filesystem::path(session_.runFolder().toStdString()) / "scene.json"](const Progress& progress) {
-        *made = std::make_shared<const session::LivePair>(file, *picture, result->landmarks_mm, progress);
+        *made = std::make_unique<session::LivePair>(file, result->placed, *picture, result->landmarks_mm, progress);
       },
       [this, made](std::exception_ptr failure) {
         if (std::exchange(again_, false)) {
@@ -111,7 +123,12 @@ void LiveBar::build() {
           numbers_->setText(tr("The retractor cannot be moved live. %1").arg(session::reasonOf(failure)));
           return;
         }
-        pair_ = *made;
+        hand_ = std::make_unique<session::LiveHand>(std::move(*made));
+        connect(hand_.get(), &session::LiveHand::moved, this, &LiveBar::show);
+        connect(hand_.get(), &session::LiveHand::failed, this, [this](const QString& why) {
+          setLive(false);
+          numbers_->setText(tr("The retractor cannot be moved live. %1").arg(why));
+        });
         live_->setEnabled(true);
         numbers_->setText(tr("Ready: \"Move live\" puts the retractor into your hand."));
         emit ready();
@@ -119,38 +136,43 @@ void LiveBar::build() {
 }
 
 void LiveBar::setLive(bool live) {
-  live = live && pair_;
+  live = live && hand_;
   const QSignalBlocker quiet(live_);
   live_->setChecked(live);
   for (QSlider* slider : slider_) slider->setEnabled(live);
   reset_->setEnabled(live);
+  comparison_->setEnabled(live);
   scene_.setLive(live);
   if (live)
     reset();
   else
     for (QLabel* value : value_) value->clear();
-  if (!live && pair_) numbers_->setText(tr("Ready: \"Move live\" puts the retractor into your hand."));
+  if (!live && hand_) numbers_->setText(tr("Ready: \"Move live\" puts the retractor into your hand."));
   emit liveChanged(live);
 }
 
 void LiveBar::reset() {
-  if (!pair_) return;
-  pair_->followForce(pair_->sceneForce_N(), frame_);
-  moveTool(frame_.toolMre_mm);
+  if (!hand_) return;
+  ask({Eigen::Vector3d::Zero(), hand_->pair().sceneForce_N()});
 }
 
 void LiveBar::take() {
   if (!isLive()) return;
   Eigen::Vector3d at;
   for (int a = 0; a < 3; ++a) at[a] = perStep_mm * slider_[static_cast<std::size_t>(a)]->value();
-  show(at);
+  ask({at, {}});
 }
 
 void LiveBar::moveTool(const Eigen::Vector3d& displacement_mm) {
   if (!isLive()) return;
-  const Eigen::Vector3d at = displacement_mm.cwiseMax(-reach_mm).cwiseMin(reach_mm);
-  setSliders(at);
-  show(at);
+  ask({displacement_mm.cwiseMax(-reach_mm).cwiseMin(reach_mm), {}});
+}
+
+void LiveBar::ask(const retraction::LiveTarget& target) {
+  target_ = target;
+  if (!hand_) return;
+  if (!target.force_N) setSliders(target.tool_mm);
+  hand_->ask(target, static_cast<session::LiveComparison>(comparison_->currentData().toInt()));
 }
 
 void LiveBar::setSliders(const Eigen::Vector3d& displacement_mm) {
@@ -160,45 +182,66 @@ void LiveBar::setSliders(const Eigen::Vector3d& displacement_mm) {
   }
 }
 
-void LiveBar::show(const Eigen::Vector3d& displacement_mm) {
-  QElapsedTimer clock;
-  clock.start();
-  pair_->followTool(displacement_mm, frame_);
-  scene_.moveLive(frame_.mre_mm, frame_.atlas_mm, frame_.toolMre_mm);
-  frame_s_ = 1e-9 * static_cast<double>(clock.nsecsElapsed());
+void LiveBar::show() {
+  frame_ = hand_->frame();
+  if (!isLive() || !frame_) return;
+  scene_.moveLive(frame_->mre_mm, frame_->atlas_mm, frame_->toolMre_mm, frame_->toolAtlas_mm);
+  // Where the force leads the tool, the sliders follow it; else the hand is ahead of what is shown.
+  if (target_.force_N) setSliders(frame_->toolMre_mm);
   for (std::size_t a = 0; a < 3; ++a)
-    value_[a]->setText(tr("%1 mm").arg(tenths(displacement_mm[static_cast<Eigen::Index>(a)])));
-  QString text =
-      tr("Tool %1 mm from rest with %2 N (the run: %3 N). Difference under the bar, weighted by its pressure, %4 mm")
-          .arg(displacement_mm.norm(), 0, 'f', 1)
-          .arg(frame_.force_N.norm(), 0, 'f', 1)
-          .arg(pair_->sceneForce_N().norm(), 0, 'f', 1)
-          .arg(frame_.atTool_mm, 0, 'f', 2);
-  const auto landmarks = frame_.mre_mm.cols() - pair_->liverVertices() - pair_->vesselVertices();
+    value_[a]->setText(tr("%1 mm").arg(tenths(frame_->toolMre_mm[static_cast<Eigen::Index>(a)])));
+  numbers_->setText(numbers());
+  tellSpeed();
+}
+
+QString LiveBar::numbers() const {
+  const session::LivePair& pair = hand_->pair();
+  const session::LiveFrame& f = *frame_;
+  const bool equalForce = comparison_->currentData().toInt() == static_cast<int>(session::LiveComparison::EqualForce);
+  QString text = tr("Tool %1 mm from rest with %2 N (the run: %3 N)")
+                     .arg(f.toolMre_mm.norm(), 0, 'f', 1)
+                     .arg(f.force_N.norm(), 0, 'f', 1)
+                     .arg(pair.sceneForce_N().norm(), 0, 'f', 1);
+  text += equalForce ? tr("; with atlas stiffness it goes %1 mm, %2 mm from there")
+                           .arg(f.toolAtlas_mm.norm(), 0, 'f', 1)
+                           .arg(f.atTool_mm, 0, 'f', 2)
+                     : tr("; with atlas stiffness that takes %1 N").arg(f.forceAtlas_N.norm(), 0, 'f', 1);
+  const auto landmarks = f.mre_mm.cols() - pair.liverVertices() - pair.vesselVertices();
   if (landmarks > 0)
     text += tr("; vessels: mean %1, largest %2 mm, %3 of %4 landmarks at 5 mm or more")
-                .arg(frame_.vesselMean_mm, 0, 'f', 2)
-                .arg(frame_.vesselMax_mm, 0, 'f', 2)
-                .arg(frame_.vesselsBeyond)
+                .arg(f.vesselMean_mm, 0, 'f', 2)
+                .arg(f.vesselMax_mm, 0, 'f', 2)
+                .arg(f.vesselsBeyond)
                 .arg(static_cast<qlonglong>(landmarks));
   text += QLatin1Char('.');
-  if (frame_.force_N.norm() > 1.5 * pair_->sceneForce_N().norm())
+  if (f.mreSlips || f.atlasSlips)
+    text += QLatin1Char(' ') + (f.mreSlips ? tr("The bar slips: the liver does not bear this force here.")
+                                           : tr("With atlas stiffness the bar slips: that liver does not bear this force here."));
+  if (pair.kind() == retraction::LiveKind::Condensed && f.force_N.norm() > 1.5 * pair.sceneForce_N().norm())
     text += QLatin1Char(' ') + tr("Linear theory, far beyond the force of the run: shapes are not to be trusted.");
-  numbers_->setText(text);
-  speed_->setText(tr("Simulation %1 ms a frame (%2 frames/s possible).")
-                      .arg(1e3 * frame_s_, 0, 'f', 2)
-                      .arg(1.0 / std::max(frame_s_, 1e-9), 0, 'f', 0));
+  return text;
+}
+
+void LiveBar::tellSpeed() {
+  const session::LiveFrame& f = *frame_;
+  QString text = tr("Simulation %1 ms a frame (%2 frames/s possible)")
+                     .arg(1e3 * f.seconds, 0, 'f', f.seconds < 1e-3 ? 2 : 0)
+                     .arg(1.0 / std::max(f.seconds, 1e-9), 0, 'f', 0);
+  if (between_ms_ > 0) text += tr("; on screen %1 pictures/s").arg(1e3 / static_cast<double>(between_ms_), 0, 'f', 0);
+  if (hand_->pair().kind() == retraction::LiveKind::Contact)
+    text += f.atRest ? tr("; at rest, on %1 degrees of freedom").arg(hand_->pair().dofs())
+                     : tr("; up to %1 mm from rest, on %2 degrees of freedom")
+                           .arg(f.remaining_mm, 0, 'f', 2)
+                           .arg(hand_->pair().dofs());
+  speed_->setText(text + QLatin1Char('.'));
 }
 
 void LiveBar::pictureDrawn() {
-  if (!isLive()) return;
+  if (!isLive() || !frame_) return;
   const qint64 since = picture_.isValid() ? picture_.elapsed() : pause_ms;
   picture_.start();
-  if (since <= 0 || since >= pause_ms) return;
-  speed_->setText(tr("Simulation %1 ms a frame (%2 frames/s possible); on screen %3 pictures/s.")
-                      .arg(1e3 * frame_s_, 0, 'f', 2)
-                      .arg(1.0 / std::max(frame_s_, 1e-9), 0, 'f', 0)
-                      .arg(1e3 / static_cast<double>(since), 0, 'f', 0));
+  between_ms_ = since <= 0 || since >= pause_ms ? 0 : since;
+  if (between_ms_ > 0) tellSpeed();
 }
 
 }  // namespace glisson::panels

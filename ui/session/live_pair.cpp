@@ -1,5 +1,7 @@
 #include "session/live_pair.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -7,14 +9,6 @@
 #include "pipeline/models.h"
 
 namespace glisson::session {
-
-struct LivePair::Parts {
-  retraction::Model mre, atlas;
-  retraction::Setup setup;
-  std::vector<Eigen::Vector3d> points_mm;
-  Eigen::Index liver = 0, vessels = 0;
-  double significant_mm = 5.0;
-};
 
 namespace {
 
@@ -47,48 +41,58 @@ Eigen::Vector3d intoBody(const retraction::Model& model, const Eigen::Vector3d& 
 
 }  // namespace
 
-LivePair::Parts LivePair::partsOf(const std::filesystem::path& file, const render::RetractionScene& picture,
-                                  const std::vector<Eigen::Vector3d>& landmarks_mm, const Progress& progress) {
-  const pipeline::Scene scene = pipeline::readScene(file);
-  pipeline::Models models = pipeline::buildModels(scene, false, progress);
+LivePair::LivePair(const std::filesystem::path& file, const std::optional<retraction::PlacedBar>& bar,
+                   const render::RetractionScene& picture, const std::vector<Eigen::Vector3d>& landmarks_mm,
+                   const Progress& progress)
+    : significant_mm_(picture.clinicallySignificant_mm) {
+  pipeline::Scene scene = pipeline::readScene(file);
+  const pipeline::Models models = pipeline::buildModels(scene, false, progress.part(0.0, 0.2));
   if (!models.atlas)
     throw BadInput(
         "the scene compares with no atlas: moving live shows both; use the measured stiffness and run again");
-  Parts parts{std::move(models.model),         std::move(*models.atlas), scene.setup, {}, 0, 0,
-              picture.clinicallySignificant_mm};
-  const auto watch = [&parts](const anatomy::TriangleMesh& mesh) {
+  const retraction::LiveKind kind = retraction::liveKindOf(scene.setup);
+  for (auto& load : scene.setup.loads)
+    if (auto* r = std::get_if<retraction::Retractor>(&load); r != nullptr && bar) *r = bar->bar;
+  std::vector<Eigen::Vector3d> points_mm;
+  const auto watch = [&](const anatomy::TriangleMesh& mesh) {
     for (Eigen::Index n = 0; n < mesh.vertices_lps_mm.cols(); ++n)
-      parts.points_mm.push_back(intoBody(parts.mre, mesh.vertices_lps_mm.col(n)));
+      points_mm.push_back(intoBody(models.model, mesh.vertices_lps_mm.col(n)));
     return mesh.vertices_lps_mm.cols();
   };
-  parts.liver = watch(picture.liverSurface);
-  parts.vessels = watch(picture.vesselSurface);
-  for (const Eigen::Vector3d& p : landmarks_mm) parts.points_mm.push_back(intoBody(parts.mre, p));
-  return parts;
+  liver_ = watch(picture.liverSurface);
+  vessels_ = watch(picture.vesselSurface);
+  for (const Eigen::Vector3d& p : landmarks_mm) points_mm.push_back(intoBody(models.model, p));
+  livers_ = retraction::makeLive(models.model, &*models.atlas, scene.setup, points_mm, kind, progress.part(0.2, 1.0));
 }
 
-LivePair::LivePair(const std::filesystem::path& scene, const render::RetractionScene& picture,
-                   const std::vector<Eigen::Vector3d>& landmarks_mm, const Progress& progress)
-    : LivePair(partsOf(scene, picture, landmarks_mm, progress.part(0.0, 0.2)), progress.part(0.2, 1.0)) {}
-
-LivePair::LivePair(const Parts& parts, const Progress& progress)
-    : liver_(parts.liver),
-      vessels_(parts.vessels),
-      significant_mm_(parts.significant_mm),
-      mre_(parts.mre, parts.setup, parts.points_mm, false, progress.part(0.0, 0.5)),
-      atlas_(parts.atlas, parts.setup, parts.points_mm, false, progress.part(0.5, 1.0)) {}
-
-void LivePair::followTool(const Eigen::Vector3d& displacement_mm, LiveFrame& frame) const {
-  followForce(mre_.forceFor(displacement_mm), frame);
-}
-
-void LivePair::followForce(const Eigen::Vector3d& force_N, LiveFrame& frame) const {
-  mre_.evaluate(force_N, frame.mre_mm);
-  atlas_.evaluate(force_N, frame.atlas_mm);
-  frame.force_N = force_N;
-  frame.toolMre_mm = mre_.toolDisplacement_mm(force_N);
-  frame.toolAtlas_mm = atlas_.toolDisplacement_mm(force_N);
+void LivePair::follow(const retraction::LiveTarget& hand, LiveComparison comparison, LiveFrame& frame) {
+  const auto start = std::chrono::steady_clock::now();
+  // Contact: the force of the frame before, so that both livers go on side by side; at rest it is the same.
+  retraction::LiveTarget other = hand;
+  if (comparison == LiveComparison::EqualForce && !hand.force_N) {
+    if (livers_.kind == retraction::LiveKind::Condensed) last_ = livers_.mre->follow(hand);
+    other.force_N = last_.force_N;
+  }
+  const retraction::LiveAnswers now = retraction::followBoth(livers_, hand, other);
+  const bool sameForce = comparison == LiveComparison::EqualTravel || (now.mre.force_N - last_.force_N).norm() <=
+                                                                          1e-3 * now.mre.force_N.norm();
+  last_ = now.mre;
+  livers_.mre->displacements(frame.mre_mm);
+  livers_.atlas->displacements(frame.atlas_mm);
+  frame.force_N = now.mre.force_N;
+  frame.forceAtlas_N = now.atlas.force_N;
+  frame.toolMre_mm = now.mre.tool_mm;
+  frame.toolAtlas_mm = now.atlas.tool_mm;
   frame.atTool_mm = (frame.toolMre_mm - frame.toolAtlas_mm).norm();
+  frame.remaining_mm = std::max(now.mre.remaining_mm, now.atlas.remaining_mm);
+  frame.atRest = now.mre.atRest && now.atlas.atRest && sameForce;
+  frame.mreSlips = now.mre.slips;
+  frame.atlasSlips = now.atlas.slips;
+  compare(frame);
+  frame.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void LivePair::compare(LiveFrame& frame) const {
   frame.vesselMean_mm = frame.vesselMax_mm = 0.0;
   frame.vesselsBeyond = 0;
   const Eigen::Index first = liver_ + vessels_, landmarks = frame.mre_mm.cols() - first;

@@ -24,6 +24,7 @@ namespace glisson::views {
 
 namespace {
 
+constexpr double barsApart_mm = 0.3;  // nearer bars are drawn as one
 constexpr double apart_mm = 3.0;  // vessels this far apart have fully their own colour, as in the picture of the run
 
 struct Colours {
@@ -35,36 +36,30 @@ Colours coloursOf(render::Palette palette) {
   return {{50, 80, 255}, {255, 40, 40}, {190, 60, 230}};
 }
 
-/// One surface that moves; normals are those at rest, which is what small strains change least.
+/// One surface that moves.
 struct Surface {
   vtkNew<vtkPoints> points;
+  vtkNew<vtkFloatArray> normal;
   vtkNew<vtkUnsignedCharArray> colours;
   vtkNew<vtkPolyData> data;
   vtkNew<vtkPolyDataMapper> mapper;
   vtkNew<vtkActor> actor;
   Eigen::Matrix3Xd rest;
+  Eigen::Matrix3Xi triangles;
+  Eigen::Matrix3Xf at, normals;  ///< now
 
   void make(const anatomy::TriangleMesh& mesh, bool coloured) {
     rest = mesh.vertices_lps_mm;
+    triangles = mesh.triangles;
     points->SetDataTypeToFloat();
     points->SetNumberOfPoints(rest.cols());
-    Eigen::Matrix3Xd normals = Eigen::Matrix3Xd::Zero(3, rest.cols());
     vtkNew<vtkCellArray> cells;
-    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-      const Eigen::Vector3i v = mesh.triangles.col(t);
-      const vtkIdType ids[3] = {v[0], v[1], v[2]};
+    for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
+      const vtkIdType ids[3] = {triangles(0, t), triangles(1, t), triangles(2, t)};
       cells->InsertNextCell(3, ids);
-      const Eigen::Vector3d a = rest.col(v[0]), b = rest.col(v[1]), c = rest.col(v[2]);
-      const Eigen::Vector3d n = (b - a).cross(c - a);
-      for (int i = 0; i < 3; ++i) normals.col(v[i]) += n;
     }
-    vtkNew<vtkFloatArray> normal;
     normal->SetNumberOfComponents(3);
     normal->SetNumberOfTuples(rest.cols());
-    for (Eigen::Index n = 0; n < rest.cols(); ++n) {
-      const Eigen::Vector3f unit = normals.col(n).normalized().cast<float>();
-      normal->SetTypedTuple(n, unit.data());
-    }
     data->SetPoints(points);
     data->SetPolys(cells);
     data->GetPointData()->SetNormals(normal);
@@ -79,9 +74,19 @@ struct Surface {
   }
 
   void move(const Eigen::Ref<const Eigen::Matrix3Xd>& u_mm) {
-    auto* raw = static_cast<float*>(points->GetVoidPointer(0));
-    Eigen::Map<Eigen::Matrix3Xf>(raw, 3, rest.cols()) = (rest + u_mm).cast<float>();
+    at = (rest + u_mm).cast<float>();
+    normals.setZero(3, at.cols());
+    for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
+      const Eigen::Vector3i v = triangles.col(t);
+      const Eigen::Vector3f a = at.col(v[0]);
+      const Eigen::Vector3f n = (at.col(v[1]) - a).cross(at.col(v[2]) - a);
+      for (int i = 0; i < 3; ++i) normals.col(v[i]) += n;
+    }
+    normals.colwise().normalize();
+    Eigen::Map<Eigen::Matrix3Xf>(static_cast<float*>(points->GetVoidPointer(0)), 3, at.cols()) = at;
+    Eigen::Map<Eigen::Matrix3Xf>(normal->GetPointer(0), 3, at.cols()) = normals;
     points->Modified();
+    normal->Modified();
   }
 };
 
@@ -90,7 +95,7 @@ struct Surface {
 struct LiveLayer::Private {
   Colours colour;
   Surface liverMre, liverAtlas, vesselsMre, vesselsAtlas;
-  std::optional<BarActor> bar;
+  std::optional<BarActor> bar, atlasBar;
 
   void paintLiver() {
     for (const auto& [surface, own] : {std::pair{&liverMre, colour.mre}, {&liverAtlas, colour.atlas}}) {
@@ -100,6 +105,9 @@ struct LiveLayer::Private {
       // Behind the vessels the back of the glass adds nothing but haze.
       surface->actor->GetProperty()->BackfaceCullingOn();
     }
+    if (!atlasBar) return;
+    const Eigen::Vector3d c = colour.atlas.cast<double>() / 255.0;
+    atlasBar->actor()->GetProperty()->SetColor(c.x(), c.y(), c.z());
   }
 };
 
@@ -110,12 +118,16 @@ LiveLayer::LiveLayer(const render::RetractionScene& scene, render::Palette palet
   d_->vesselsAtlas.make(scene.vesselSurface, true);
   if (scene.retractorPoint_lps_mm) {
     rest_lps_ = tool_lps_ = *scene.retractorPoint_lps_mm;
-    d_->bar.emplace(tools::BarPlace{rest_lps_, scene.retractorAxis, scene.retractorDirection,
-                                    scene.retractorDiameter_mm, scene.retractorLength_mm});
+    const tools::BarPlace place{rest_lps_, scene.retractorAxis, scene.retractorDirection, scene.retractorDiameter_mm,
+                                scene.retractorLength_mm};
+    d_->bar.emplace(place);
+    d_->atlasBar.emplace(place);
+    d_->atlasBar->actor()->GetProperty()->SetOpacity(0.45);
   }
   setPalette(palette);
   const auto points = scene.liverSurface.vertices_lps_mm.cols() + scene.vesselSurface.vertices_lps_mm.cols();
-  move(Eigen::Matrix3Xd::Zero(3, points), Eigen::Matrix3Xd::Zero(3, points), Eigen::Vector3d::Zero());
+  move(Eigen::Matrix3Xd::Zero(3, points), Eigen::Matrix3Xd::Zero(3, points), Eigen::Vector3d::Zero(),
+       Eigen::Vector3d::Zero());
 }
 
 LiveLayer::~LiveLayer() = default;
@@ -123,7 +135,8 @@ LiveLayer::~LiveLayer() = default;
 void LiveLayer::addTo(vtkRenderer* renderer) {
   for (Surface* s : {&d_->vesselsAtlas, &d_->vesselsMre, &d_->liverAtlas, &d_->liverMre})
     if (s->rest.cols() > 0) renderer->AddViewProp(s->actor);
-  if (d_->bar) renderer->AddViewProp(d_->bar->actor());
+  for (const auto* bar : {&d_->bar, &d_->atlasBar})
+    if (*bar) renderer->AddViewProp((*bar)->actor());
 }
 
 void LiveLayer::setPalette(render::Palette palette) {
@@ -131,7 +144,8 @@ void LiveLayer::setPalette(render::Palette palette) {
   d_->paintLiver();
 }
 
-void LiveLayer::move(const Eigen::Matrix3Xd& mre_mm, const Eigen::Matrix3Xd& atlas_mm, const Eigen::Vector3d& tool_mm) {
+void LiveLayer::move(const Eigen::Matrix3Xd& mre_mm, const Eigen::Matrix3Xd& atlas_mm, const Eigen::Vector3d& tool_mm,
+                     const Eigen::Vector3d& atlasTool_mm) {
   const Eigen::Index liver = d_->liverMre.rest.cols(), vessels = d_->vesselsMre.rest.cols();
   d_->liverMre.move(mre_mm.leftCols(liver));
   d_->liverAtlas.move(atlas_mm.leftCols(liver));
@@ -151,7 +165,10 @@ void LiveLayer::move(const Eigen::Matrix3Xd& mre_mm, const Eigen::Matrix3Xd& atl
   d_->vesselsMre.colours->Modified();
   d_->vesselsAtlas.colours->Modified();
   tool_lps_ = rest_lps_ + tool_mm;
-  if (d_->bar) d_->bar->shift(tool_mm);
+  if (!d_->bar) return;
+  d_->bar->shift(tool_mm);
+  d_->atlasBar->shift(atlasTool_mm);
+  d_->atlasBar->actor()->SetVisibility((atlasTool_mm - tool_mm).norm() > barsApart_mm);
 }
 
 }  // namespace glisson::views

@@ -19,8 +19,10 @@ class LiveLayer {
   void addTo(vtkRenderer* renderer);
   void setPalette(render::Palette palette);
   /// Displacements, mm in LPS: vertices of the liver, then of the vessels, in the order of the scene; further columns
-  /// are not looked at. tool_mm: how the bar moves.
-  void move(const Eigen::Matrix3Xd& mre_mm, const Eigen::Matrix3Xd& atlas_mm, const Eigen::Vector3d& tool_mm);
+  /// are not looked at. tool_mm, atlasTool_mm: how the bar moves with either stiffness; the second bar is drawn in the
+  /// colour of the atlas where it lies elsewhere.
+  void move(const Eigen::Matrix3Xd& mre_mm, const Eigen::Matrix3Xd& atlas_mm, const Eigen::Vector3d& tool_mm,
+            const Eigen::Vector3d& atlasTool_mm);
   /// Where the contact is now, LPS.
   const Eigen::Vector3d& tool_lps() const { return tool_lps_; }
 

@@ -269,11 +269,11 @@ void SceneView::setLive(bool live) {
 }
 
 void SceneView::moveLive(const Eigen::Matrix3Xd& mre_mm, const Eigen::Matrix3Xd& atlas_mm,
-                         const Eigen::Vector3d& tool_mm) {
+                         const Eigen::Vector3d& tool_mm, const Eigen::Vector3d& atlasTool_mm) {
   if (!layer_) return;
   toolMoved_mm_ = tool_mm;
-  painter_.change(movedLive, [layer = layer_, mre_mm, atlas_mm, tool_mm](vtkRenderer&) {
-    if (*layer) (*layer)->move(mre_mm, atlas_mm, tool_mm);
+  painter_.change(movedLive, [layer = layer_, mre_mm, atlas_mm, tool_mm, atlasTool_mm](vtkRenderer&) {
+    if (*layer) (*layer)->move(mre_mm, atlas_mm, tool_mm, atlasTool_mm);
   });
   draw(true);
 }

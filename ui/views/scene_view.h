@@ -67,7 +67,8 @@ class SceneView : public QWidget {
   void setLive(bool live);
   bool isLive() const { return layer_ != nullptr; }
   /// As LiveLayer::move; drawn with the next frame.
-  void moveLive(const Eigen::Matrix3Xd& mre_mm, const Eigen::Matrix3Xd& atlas_mm, const Eigen::Vector3d& tool_mm);
+  void moveLive(const Eigen::Matrix3Xd& mre_mm, const Eigen::Matrix3Xd& atlas_mm, const Eigen::Vector3d& tool_mm,
+                const Eigen::Vector3d& atlasTool_mm);
   /// Where the tool's contact is seen, in logical pixels of this view; nothing while not live.
   std::optional<QPointF> toolPixel() const;
 
