@@ -91,6 +91,17 @@ std::optional<CaseRecord> stillGood(const fs::path& output, const Patient& p, bo
   return r;
 }
 
+/// Why no bar holds this liver, in the words of its run; empty where that is not the reason.
+std::string slipIn(const std::string& runJson) {
+  const auto j = nlohmann::json::parse(runJson, nullptr, false);
+  if (!j.is_object() || !j.contains("diagnostics")) return {};
+  std::string why;
+  for (const char* code : {"retractor-slips", "no-place-bears"})
+    for (const auto& d : j["diagnostics"])
+      if (d.value("code", "") == code) why += (why.empty() ? "" : "; ") + d.value("text", "");
+  return why;
+}
+
 CaseOutcome outcomeOf(const std::string& id, const JobOutcome& o, const fs::path& folder) {
   CaseOutcome out;
   out.id = id;
@@ -99,6 +110,9 @@ CaseOutcome outcomeOf(const std::string& id, const JobOutcome& o, const fs::path
   } else if (o.exitCode == 3) {
     out.status = CaseOutcome::Status::Rejected;
     out.reason = detail::anonymous(o.message, folder, id);
+  } else if (const std::string why = slipIn(o.standardOutput); !why.empty()) {
+    out.status = CaseOutcome::Status::Rejected;
+    out.reason = why;
   } else {
     out.status = CaseOutcome::Status::Failed;
     out.reason = o.signal != 0 ? "the program was ended by signal " + std::to_string(o.signal) +

@@ -46,6 +46,10 @@ void eachNumber(CaseRecord& r, Visit&& visit) {
   visit("at_retractor_mm", r.at_retractor_mm);
   visit("vessel_mean_mm", r.vessel_mean_mm);
   visit("vessel_beyond_5mm", r.vessel_beyond_5mm);
+  visit("travel_mm", r.travel_mm);
+  visit("atlas_travel_mm", r.atlas_travel_mm);
+  visit("travel_difference_mm", r.travel_difference_mm);
+  visit("pose_height_mm", r.pose_height_mm);
   visit("discretisation_mm", r.discretisation_mm);
   visit("difference_error_mm", r.difference_error_mm);
   visit("volume_mL", r.volume_mL);
@@ -79,6 +83,10 @@ CaseRecord recordOf(const std::string& id, const std::string& key, const std::st
   r.at_retractor_mm = numberAt(j, {"difference", "at_retractor_mm"});
   r.vessel_mean_mm = numberAt(j, {"difference", "vessels", "mean_mm"});
   r.vessel_beyond_5mm = numberAt(j, {"difference", "vessels", "fraction_beyond_5mm"});
+  r.travel_mm = numberAt(j, {"contact", "travel_mm"});
+  r.atlas_travel_mm = numberAt(j, {"atlas", "contact", "travel_mm"});
+  r.travel_difference_mm = numberAt(j, {"difference", "travel_mm"});
+  r.pose_height_mm = numberAt(j, {"pose", "height_mm"});
   r.discretisation_mm = numberAt(j, {"discretisation_error", "max_mm"});
   r.difference_error_mm = numberAt(j, {"discretisation_error", "difference", "at_retractor_mm"});
   r.volume_mL = numberAt(j, {"model", "volume_mL"});
@@ -87,6 +95,8 @@ CaseRecord recordOf(const std::string& id, const std::string& key, const std::st
   const double dofs = numberAt(j, {"model", "dofs"});
   r.dofs = std::isfinite(dofs) ? static_cast<long long>(dofs) : 0;
   r.linear_valid = j.value("linear_valid", false);
+  r.kinematics_valid = j.value("kinematics_valid", r.linear_valid);
+  if (j.contains("kinematics") && j["kinematics"].is_object()) r.kinematics = j["kinematics"].value("used", "");
   r.drawable = j.value("drawable", true) && (!j.contains("atlas") || j["atlas"].value("drawable", true));
   for (const Json* source : {&m, &j})
     if (source->contains("warnings"))
@@ -108,6 +118,8 @@ std::string toJson(const CaseRecord& record) {
   j["voxels"] = r.voxels;
   j["dofs"] = r.dofs;
   j["linear_valid"] = r.linear_valid;
+  j["kinematics_valid"] = r.kinematics_valid;
+  j["kinematics"] = r.kinematics;
   j["drawable"] = r.drawable;
   j["warnings"] = r.warnings;
   return j.dump(1) + "\n";
@@ -128,6 +140,8 @@ std::optional<CaseRecord> parseRecord(const std::string& text) {
   r.voxels = j.value("voxels", 0LL);
   r.dofs = j.value("dofs", 0LL);
   r.linear_valid = j.value("linear_valid", false);
+  r.kinematics_valid = j.value("kinematics_valid", r.linear_valid);
+  r.kinematics = j.value("kinematics", "");
   r.drawable = j.value("drawable", true);
   r.warnings = j.value("warnings", std::vector<std::string>{});
   return r;

@@ -64,9 +64,8 @@ SensitivityChart sensitivityChart(const Summary& s) {
   c.axis = "Difference at the retractor, MRE against atlas (mm)";
   c.line = {defaults::clinicallySignificant.mm(), "clinically significant, 5 mm", orange};
   c.caption =
-      "The chosen patients under one changed assumption at a time. The last two rows, on 10 mm cells, are to be "
-      "compared "
-      "with each other only.";
+      "The chosen patients under one changed assumption at a time. Rows on 10 mm cells are to be compared with each "
+      "other only.";
   for (const Chosen& chosen : s.chosen) c.patients.push_back(chosen.what + " (" + chosen.id + ")");
   for (const SensitivityRow& r : s.sensitivity) {
     auto at = std::find_if(c.rows.begin(), c.rows.end(), [&](const auto& x) { return x.assumption == r.variation; });
@@ -98,7 +97,8 @@ void addChart(report::Page& page, const Chart& chart, const std::string& name, c
 std::string patientsCsv(const Summary& s) {
   report::Csv csv({"case", "status", "shear_kPa", "youngs_kPa", "sd_kPa", "voxels", "volume_mL", "mean_mm", "p95_mm",
                    "max_mm", "at_retractor_mm", "vessel_mean_mm", "vessel_beyond_5mm", "discretisation_mm",
-                   "difference_error_mm", "p95_strain", "rotation_deg", "linear_valid", "dofs"});
+                   "difference_error_mm", "p95_strain", "rotation_deg", "linear_valid", "dofs", "travel_mm",
+                   "atlas_travel_mm", "travel_difference_mm", "pose_height_mm", "kinematics", "kinematics_valid"});
   const auto cell = [](double v) { return std::isfinite(v) ? number(v, 10) : std::string(); };
   for (const CaseRecord& r : s.records) {
     constexpr std::array<const char*, 3> status = {"done", "rejected", "failed"};
@@ -106,7 +106,8 @@ std::string patientsCsv(const Summary& s) {
              cell(r.sd_kPa), std::to_string(r.voxels), cell(r.volume_mL), cell(r.mean_mm), cell(r.p95_mm),
              cell(r.max_mm), cell(r.at_retractor_mm), cell(r.vessel_mean_mm), cell(r.vessel_beyond_5mm),
              cell(r.discretisation_mm), cell(r.difference_error_mm), cell(r.p95_strain), cell(r.rotation_deg),
-             r.linear_valid ? "yes" : "no", std::to_string(r.dofs)});
+             r.linear_valid ? "yes" : "no", std::to_string(r.dofs), cell(r.travel_mm), cell(r.atlas_travel_mm),
+             cell(r.travel_difference_mm), cell(r.pose_height_mm), r.kinematics, r.kinematics_valid ? "yes" : "no"});
   }
   return csv.text();
 }
@@ -144,6 +145,10 @@ std::string summaryJson(const Summary& s) {
                      {"fraction_within_voxel", b.fractionWithinVoxel},
                      {"significant_mm", defaults::clinicallySignificant.mm()},
                      {"fraction_clinically_significant", b.fractionSignificant}};
+  if (b.travel.n > 0) {
+    j["retraction"]["travel_difference_mm"] = toJson(b.travel);
+    j["retraction"]["fraction_travel_clinically_significant"] = b.fractionTravelSignificant;
+  }
   j["chosen"] = Json::array();
   for (const Chosen& c : s.chosen)
     j["chosen"].push_back(
@@ -212,6 +217,15 @@ std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& option
                  percent(b.fractionSignificant) + " of the patients at 5 mm or more."),
              "difference-retractor", "Displacement difference at the retractor: " + inWords(b.atRetractor, "mm") + ".",
              figures, files);
+    if (b.travel.n > 0)
+      addChart(page,
+               box("Travel of the bar", b.travel_mm,
+                   {defaults::clinicallySignificant.mm(), "clinically significant, 5 mm", orange},
+                   percent(b.fractionTravelSignificant) + " of the patients at 5 mm or more."),
+               "difference-travel",
+               "How far the bar goes with measured and with atlas stiffness, amount of the difference: " +
+                   inWords(b.travel, "mm") + ".",
+               figures, files);
     reservations(page, s);
   } else {
     page.warning("No retraction came to an end; the reasons are listed below.");
@@ -262,12 +276,14 @@ std::vector<fs::path> writeSummary(const Summary& s, const CohortOptions& option
     rows.push_back({r.outcome.id, orDash(r.shear_kPa), orDash(r.youngs_kPa), orDash(r.volume_mL, 4), orDash(r.mean_mm),
                     orDash(r.at_retractor_mm), orDash(r.difference_error_mm, 2), orDash(r.discretisation_mm, 2),
                     orDash(r.p95_strain, 2),
+                    orDash(r.travel_mm), orDash(r.atlas_travel_mm), r.kinematics.empty() ? "–" : r.kinematics,
                     r.outcome.status != CaseOutcome::Status::Done ? "–"
-                    : r.linear_valid                              ? "valid"
+                    : r.kinematics_valid                          ? "valid"
                                                                   : "beyond its range"});
   page.heading("Every patient");
   page.table({"Patient", "µ, kPa", "E = 3µ, kPa", "Volume, mL", "Mean difference, mm", "At the retractor, mm",
-              "Its discretisation error, mm", "That of the worst place, mm", "Strain (95 %)", "Linear theory"},
+              "Its discretisation error, mm", "That of the worst place, mm", "Strain (95 %)", "Travel of the bar, mm",
+              "With atlas, mm", "Kinematics", "Theory"},
              rows);
   text("report.html", report::html(page));
   text("report.pdf", report::pdf(page));

@@ -70,7 +70,10 @@ void inShort(report::Page& page, const Summary& s) {
     items.push_back("Retraction, measured against atlas stiffness: " + percent(s.retraction.fractionWithinVoxel) +
                     " of " + patients(s.retraction.left) +
                     " agree within one MRI voxel on average over the liver; at the retractor " +
-                    percent(s.retraction.fractionSignificant) + " differ by 5 mm or more.");
+                    percent(s.retraction.fractionSignificant) + " differ by 5 mm or more" +
+                    (s.retraction.travel.n > 0
+                         ? ", in the travel of the bar " + percent(s.retraction.fractionTravelSignificant) + "."
+                         : "."));
   std::string changing;
   std::vector<std::string> seen;
   for (const SensitivityRow& r : s.sensitivity) {
@@ -119,7 +122,7 @@ void reservations(report::Page& page, const Summary& s) {
   std::size_t undecided = 0;
   for (const CaseRecord& r : s.records) {
     if (r.outcome.status != CaseOutcome::Status::Done) continue;
-    if (!r.linear_valid) ++beyond;
+    if (!r.kinematics_valid) ++beyond;
     strain.push_back(r.p95_strain);
     rotation.push_back(r.rotation_deg);
     error.push_back(r.discretisation_mm);
@@ -128,11 +131,11 @@ void reservations(report::Page& page, const Summary& s) {
   }
   if (beyond > 0)
     page.warning("In " + std::to_string(beyond) + " of " + patients(s.retraction.left) +
-                 " strains or rotations are larger than linear elasticity allows for (in the median patient 5 % "
-                 "of the liver strain by more than " +
+                 " the theory that was used does not hold: strains or rotations are larger than it allows for, or the "
+                 "bar folds cells of the surface (in the median patient 5 % of the liver strain by more than " +
                  percent(spreadOf(strain).median) + ", and the largest rotation is " +
                  orDash(spreadOf(rotation).median) +
-                 "°). The differences are those of the linear model that was asked for.");
+                 "°). The differences are those of the model that was asked for.");
   const Spread e = spreadOf(error);
   if (e.n > 0)
     page.paragraph("The largest discretisation error of a displacement, estimated from cells twice as large, is " +

@@ -50,7 +50,7 @@ StiffnessStudy stiffnessStudy(const std::vector<CaseRecord>& records, bool asPub
 RetractionStudy retractionStudy(const std::vector<CaseRecord>& records) {
   RetractionStudy s;
   s.tried = records.size();
-  std::size_t within = 0, significant = 0;
+  std::size_t within = 0, significant = 0, travelled = 0;
   for (const CaseRecord& r : records) {
     if (r.outcome.status == CaseOutcome::Status::Rejected) ++s.rejected;
     if (r.outcome.status == CaseOutcome::Status::Failed) ++s.failed;
@@ -59,10 +59,16 @@ RetractionStudy retractionStudy(const std::vector<CaseRecord>& records) {
     s.at_retractor_mm.push_back(r.at_retractor_mm);
     if (r.mean_mm <= defaults::mriVoxel.mm()) ++within;
     if (r.at_retractor_mm >= defaults::clinicallySignificant.mm()) ++significant;
+    if (!std::isfinite(r.travel_difference_mm)) continue;
+    s.travel_mm.push_back(std::abs(r.travel_difference_mm));
+    if (s.travel_mm.back() >= defaults::clinicallySignificant.mm()) ++travelled;
   }
   s.left = s.mean_mm.size();
   s.mean = spreadOf(s.mean_mm);
   s.atRetractor = spreadOf(s.at_retractor_mm);
+  s.travel = spreadOf(s.travel_mm);
+  if (!s.travel_mm.empty())
+    s.fractionTravelSignificant = static_cast<double>(travelled) / static_cast<double>(s.travel_mm.size());
   if (s.left > 0) {
     s.fractionWithinVoxel = static_cast<double>(within) / static_cast<double>(s.left);
     s.fractionSignificant = static_cast<double>(significant) / static_cast<double>(s.left);

@@ -7,11 +7,13 @@
 
 #include "base/error.h"
 #include "cohort/detail/summary.h"
+#include "pipeline/scene.h"
 #include "support/support.h"
 
 namespace glisson::cohort {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -101,11 +103,25 @@ TEST(Variations, ChangeOneAssumptionEach) {
   const test::TemporaryFolder folder;
   write(folder / "roi.json", "{}");
   const auto list = detail::variations(sceneOf(folder.path(), {}));
-  ASSERT_EQ(list.size(), 10u);
   EXPECT_EQ(list[0].name, "as simulated");
   for (std::size_t i = 1; i < list.size(); ++i) EXPECT_NE(list[i].scene, list[0].scene) << list[i].name;
   EXPECT_THAT(list[1].scene, HasSubstr("0.05"));
-  EXPECT_THAT(list[9].scene, HasSubstr("corotational"));
+  const auto sceneNamed = [](const auto& all, const std::string& name) {
+    for (const auto& v : all)
+      if (v.name == name) return v.scene;
+    return std::string();
+  };
+  EXPECT_THAT(sceneNamed(list, "no capsule"), HasSubstr("\"capsule\": false"));
+  EXPECT_THAT(sceneNamed(list, "linear, patch of pressure"), HasSubstr("\"contact\": \"patch\""));
+  EXPECT_THAT(sceneNamed(list, "lifted by 30 mm"), AllOf(HasSubstr("travel_mm"), Not(HasSubstr("liver-weight"))));
+  EXPECT_EQ(sceneNamed(list, "bare bar"), "");
+  // A patch has assumptions of its own. Each scene can be read.
+  const auto patch = detail::variations(sceneNamed(list, "linear, patch of pressure"));
+  EXPECT_THAT(sceneNamed(patch, "corotational, 10 mm cells, 20 mm spread"), HasSubstr("corotational"));
+  EXPECT_THAT(sceneNamed(patch, "bare bar"), HasSubstr("\"spread_mm\": 0.0"));
+  EXPECT_EQ(sceneNamed(patch, "no capsule"), "");
+  for (const auto& all : {list, patch})
+    for (const auto& v : all) EXPECT_NO_THROW(pipeline::parseScene(v.scene, folder.path())) << v.name;
 }
 
 }  // namespace
