@@ -1,4 +1,5 @@
 #include "study/beam_report.h"
+#include "study/contact_study.h"
 #include "study_json.h"
 
 namespace glisson::cli {
@@ -46,6 +47,19 @@ int validate(const study::BeamOptions& options, const Context& context) {
   return Ok;
 }
 
+int validateContact(bool quick, const Context& context) {
+  const study::ContactStudy s = study::studyContact({quick}, context.progress());
+  Json j = {{"rows", toJson(s.rows)}, {"files", Json::array()}};
+  std::string text = s.summary() + study::table(s.rows);
+  if (!context.output.empty())
+    for (const auto& file : study::writeContactStudy(context.output, s)) {
+      j["files"].push_back(file.string());
+      text += "written " + file.string() + "\n";
+    }
+  context.print(j, text);
+  return Ok;
+}
+
 }  // namespace
 
 void addValidate(CLI::App& app, Context& context) {
@@ -53,12 +67,17 @@ void addValidate(CLI::App& app, Context& context) {
       app.add_subcommand("validate", "known problems: every method and resolution, error against run time");
   auto problem = std::make_shared<std::string>("beam");
   auto options = std::make_shared<study::BeamOptions>();
-  verb->add_option("problem", *problem, "beam: cantilever 50 x 10 x 10 mm")->check(CLI::IsMember({"beam"}));
+  verb->add_option("problem", *problem, "beam: cantilever 50 x 10 x 10 mm; contact: a rigid bar and large deformation")
+      ->check(CLI::IsMember({"beam", "contact"}));
   verb->add_option("--poisson", options->poisson, "Poisson's ratio")->check(CLI::Range(-0.9, 0.4999));
   verb->add_option("--tip", options->tip_mm, "Euler-Bernoulli tip deflection in mm")->check(CLI::Range(1e-6, 10.0));
   verb->add_flag("--quick", options->quick, "fewer methods and resolutions");
   verb->callback(
-      [&context, problem, options] { context.action = [&context, options] { return validate(*options, context); }; });
+      [&context, problem, options] {
+        context.action = [&context, problem, options] {
+          return *problem == "contact" ? validateContact(options->quick, context) : validate(*options, context);
+        };
+      });
 }
 
 }  // namespace glisson::cli
