@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "mechanics/contact/smoother_kernel.h"
 #include "mechanics/row_sweep.h"
 
 namespace glisson::mechanics {
@@ -323,34 +324,29 @@ void SolidLevel::estimateLambda() {
   lambdaMax_ = static_cast<float>(safety * std::max(estimate, 1.0));
 }
 
+void SolidLevel::smoothStep(float keep, float gain, bool first, bool fromZero) {
+  const std::size_t n = nodes();
+  const SmootherFields fields{n, block_.data(), y.data(), r.data(), d.data(), x.data()};
+  forRange(n, [&](std::size_t begin, std::size_t end) {
+    smoothNodes(fields, begin, end, keep, gain, first, fromZero);
+  });
+  float &rest = r[3 * n], &along = d[3 * n], &travel = x[3 * n];
+  if (!first) rest -= y[3 * n];
+  along = (first ? 0.0F : keep * along) + gain * (travels_ ? inverseTravel_ * rest : 0.0F);
+  travel = fromZero ? along : travel + along;
+}
+
 void SolidLevel::smooth(bool fromZero, bool keepResidual) {
   const double upper = static_cast<double>(lambdaMax_), lower = upper / smoothed;
   const double theta = 0.5 * (upper + lower), delta = 0.5 * (upper - lower), sigma = theta / delta;
   double rho = 1 / sigma;
-  const auto first = static_cast<float>(1 / theta);
-  applyInverseBlocks(r.data(), d.data());
-  forRange(size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      d[i] *= first;
-      x[i] = fromZero ? d[i] : x[i] + d[i];
-    }
-  });
-  std::vector<float> z(size());
+  smoothStep(0, static_cast<float>(1 / theta), true, fromZero);
   for (int step = 1; step < degree; ++step) {
     const double next = 1 / (2 * sigma - rho);
-    const auto a = static_cast<float>(next * rho), b = static_cast<float>(2 * next / delta);
+    const auto keep = static_cast<float>(next * rho), gain = static_cast<float>(2 * next / delta);
     rho = next;
     apply(d.data(), y.data(), true);
-    forRange(size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) r[i] -= y[i];
-    });
-    applyInverseBlocks(r.data(), z.data());
-    forRange(size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        d[i] = a * d[i] + b * z[i];
-        x[i] += d[i];
-      }
-    });
+    smoothStep(keep, gain, false, false);
   }
   if (!keepResidual) return;
   apply(d.data(), y.data(), true);

@@ -117,6 +117,8 @@ class SolidLevel {
 
  private:
   void makeBlocks();
+  /// r −= y (not at first), d = keep d + gain blocks⁻¹ r, x += d in one pass.
+  void smoothStep(float keep, float gain, bool first, bool fromZero);
   template <class T>
   void applyPoints(const T* x, T* y, bool positive) const;
   void estimateLambda();
