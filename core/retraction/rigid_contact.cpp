@@ -19,6 +19,7 @@ namespace {
 constexpr double mmToM = 1e-3;
 constexpr double leastFraction = 0.1;  ///< of a cell, for it to be one
 constexpr double sample_mm = 1.5;      ///< largest spacing of the samples of the surface
+constexpr double rind_mm = 3.0;        ///< depth of the layer that stands for the capsule
 constexpr double behind_mm = 400.0;    ///< from where the bar comes
 
 struct Samples {
@@ -288,7 +289,7 @@ ContactScene contactScene(const Body& body, const Model& model, const Setup& set
   if (setup.capsule && setup.capsule->form == CapsuleForm::Membrane)
     p.skin = mechanics::Skin{1e3 * setup.capsule->tension_N_per_mm};
   else if (setup.capsule)
-    p.rind_Pa = mechanics::rindOf(p.problem.body, p.surface, 1e3 * setup.capsule->tension_N_per_mm);
+    p.rind_Pa = mechanics::rindOf(p.problem.body, p.surface, 1e3 * setup.capsule->tension_N_per_mm, mmToM * rind_mm);
   p.bar = barOf(body, bar, *bar.at_mm, shift_m);
   if (bar.travel_mm)
     p.travel_m = mmToM * *bar.travel_mm;

@@ -111,7 +111,7 @@ struct AnalysisSpec {
 /// How strain follows from displacement. Auto: linear where that is right to 0.2 mm, else hyperelastic.
 enum class Kinematics { Linear, Corotational, Hyperelastic, Auto };
 
-/// How the capsule is borne. Cells: by the cells that the surface passes through, in all directions. Membrane: in the
+/// How the capsule is borne. Cells: by a layer of 3 mm below the surface, in all directions, whatever the cells. Membrane: in the
 /// plane of the surface, and in tension only; cells of a few millimetres then fold one by one under a bar, where the
 /// true capsule wrinkles finer than they are, so that soft livers take many more iterations or find no answer.
 enum class CapsuleForm { Cells, Membrane };

@@ -68,7 +68,7 @@ mechanics::ContactProblem lobe(double shear_kPa, double poisson, double capsule_
   const mechanics::VoxelMesh mesh(body);
   p.problem.f_N = mechanics::NodalField::Zero(3, mesh.nodeCount());
   std::map<int, double> stiffness_N_m;
-  if (capsule_N_m > 0) p.rind_Pa = mechanics::rindOf(body, p.surface, capsule_N_m);
+  if (capsule_N_m > 0) p.rind_Pa = mechanics::rindOf(body, p.surface, capsule_N_m, 3e-3);
   for (const mechanics::SurfaceSample& s : p.surface) {
     const double seen = std::max(0.0, s.normal.y()) + std::max(0.0, s.normal.z());
     for (const auto& [node, share] : mechanics::sharesOf(mesh, s.p_m))

@@ -63,12 +63,17 @@ Eigen::Vector3i nearestCell(const VoxelMesh& mesh, const Eigen::Vector3d& p_m) {
   return best;
 }
 
-std::vector<double> rindOf(const VoxelBody& body, const std::vector<SurfaceSample>& surface, double stiffness_N_m) {
+std::vector<double> rindOf(const VoxelBody& body, const std::vector<SurfaceSample>& surface, double stiffness_N_m,
+                           double depth_m) {
   const VoxelMesh mesh(body);
   std::vector<double> rind(body.E_Pa.size(), 0.0);
+  // Four places to a cell's edge, so that a cell takes its share of the layer.
+  const int places = std::max(1, static_cast<int>(std::ceil(4 * depth_m / body.h_m.minCoeff())));
+  const double share = stiffness_N_m / (places * body.h_m.prod());
   for (const SurfaceSample& s : surface)
-    if (const auto cell = carrierCell(mesh, s.p_m))
-      rind[body.cell(cell->x(), cell->y(), cell->z())] += stiffness_N_m * s.area_m2 / body.h_m.prod();
+    for (int i = 0; i < places; ++i)
+      if (const auto cell = carrierCell(mesh, s.p_m - (i + 0.5) / places * depth_m * s.normal))
+        rind[body.cell(cell->x(), cell->y(), cell->z())] += share * s.area_m2;
   return rind;
 }
 

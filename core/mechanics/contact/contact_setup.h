@@ -12,9 +12,11 @@ std::optional<Eigen::Vector3i> carrierCell(const VoxelMesh& mesh, const Eigen::V
 /// The nearest filled cell, however far.
 Eigen::Vector3i nearestCell(const VoxelMesh& mesh, const Eigen::Vector3d& p_m);
 
-/// A skin of this stiffness (N/m, Young's modulus times thickness) as a further modulus of the cells that its surface
-/// passes through, Pa per cell: tension over the cell's height. It stiffens them in all directions.
-std::vector<double> rindOf(const VoxelBody& body, const std::vector<SurfaceSample>& surface, double stiffness_N_m);
+/// A skin of this stiffness (N/m, Young's modulus times thickness) as a layer of this depth below the surface: a further
+/// modulus of the cells that it passes through, Pa per cell. It stiffens them in all directions; its depth is its own and
+/// not that of the cells, so that finer cells show the same body.
+std::vector<double> rindOf(const VoxelBody& body, const std::vector<SurfaceSample>& surface, double stiffness_N_m,
+                           double depth_m);
 
 /// The body's own cells as a level: moduli, clamps and springs.
 SolidLevel finestLevel(const ContactProblem& problem);
