@@ -85,8 +85,10 @@ void Screenshot::settle() {
 
 void Screenshot::take() {
   const auto scenes = window_.findChildren<views::SceneView*>();
-  // The model is still being made, or a picture of it.
-  if (window_.session().preview().busy() || !std::ranges::all_of(scenes, &views::SceneView::isSettled)) {
+  const auto* live = window_.findChild<panels::LiveBar*>();
+  // The model is still being made, or a picture of it, or the livers are still on their way.
+  if (window_.session().preview().busy() || !std::ranges::all_of(scenes, &views::SceneView::isSettled) ||
+      (live->isLive() && !live->isAtRest())) {
     QTimer::singleShot(settle_ms, this, &Screenshot::take);
     return;
   }
