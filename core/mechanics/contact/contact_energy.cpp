@@ -1,6 +1,7 @@
 #include "mechanics/contact/contact_energy.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,8 +14,13 @@ namespace {
 
 constexpr std::size_t chunk = 1024;
 constexpr double reach_m = 0.02;  ///< samples within this of the bar are looked at, until something has moved as far
-/// The barrier of soft tissue: 20 kPa/mm, or the mean modulus over a millimetre where the body is stiffer.
-constexpr double softest_Pa_m = 2e7;
+/// The barrier's stiffness: 20 kPa/mm for tissue, whose mean modulus is 3 to 20 kPa. For softer and stiffer bodies it
+/// goes with the modulus, so that their answers are the same at forces in proportion.
+constexpr double ofTissue_Pa_m = 2e7, softTissue_Pa = 3e3, perStiffBody_1_m = 1e3;
+
+double barrierStiffness(double modulus_Pa) {
+  return std::max(ofTissue_Pa_m * std::min(1.0, modulus_Pa / softTissue_Pa), perStiffBody_1_m * modulus_Pa);
+}
 
 double meanModulus(const VoxelBody& body) {
   double sum = 0, count = 0;
@@ -33,11 +39,13 @@ ContactEnergy::ContactEnergy(const SolidHierarchy& hierarchy, std::vector<Surfac
     : hierarchy_(hierarchy),
       surface_(std::move(surface)),
       bed_(problem.bed),
+      tethers_(problem.tethers),
       pressures_(problem.pressures),
       law_(problem.law), bar_(problem.bar) {
   barrier_.width_m = options.zone_m;
-  barrier_.kappa_Pa_m = std::max(softest_Pa_m, 1e3 * meanModulus(problem.problem.body)) * 1e-3 / options.zone_m;
-  for (const FollowerFace& f : pressures_) middle_ += f.corner_m[0] / static_cast<double>(pressures_.size());
+  barrier_.kappa_Pa_m = barrierStiffness(meanModulus(problem.problem.body)) * 1e-3 / options.zone_m;
+  if (!pressures_.empty())
+    potential_ = potentialOf(VoxelMesh(problem.problem.body), pressures_, problem.problem.supports.fixations);
   if (bar_) barrier_.guard_m = 0.4 * bar_->radius_m;
   if (bar_) bringToTouch();
 }
@@ -122,6 +130,19 @@ const std::vector<std::uint32_t>& ContactEnergy::near(const State& at) const {
 }
 
 bool ContactEnergy::evaluate(const State& at, std::optional<double> force_N, bool travels, Value& value) const {
+  if (!unbalanced(at, value)) return false;
+  const SolidLevel& level = hierarchy_.level(top_);
+  const std::size_t n = level.nodes();
+  for (std::size_t i = 0; i < 3 * n; ++i)
+    if (!(level.active[i] > 0)) value.gradient[i] = 0;
+  if (travels && force_N) {
+    value.potential -= *force_N * at.s;
+    value.gradient[3 * n] = value.barForce_N - *force_N;
+  }
+  return std::isfinite(value.potential);
+}
+
+bool ContactEnergy::unbalanced(const State& at, Value& value) const {
   const SolidLevel& level = hierarchy_.level(top_);
   const std::size_t n = level.nodes();
   value.gradient.resize(level.size());
@@ -148,6 +169,7 @@ bool ContactEnergy::evaluate(const State& at, std::optional<double> force_N, boo
     }
   }
   addBed(at, value);
+  addTethers(at, value);
   double pressed = value.loads_N;
   addPressures(at, value);
   pressed = value.loads_N - pressed;
@@ -158,25 +180,73 @@ bool ContactEnergy::evaluate(const State& at, std::optional<double> force_N, boo
     value.loads_N += level.active[i] > 0 ? loads_[i] * loads_[i] : 0;
   }
   value.loads_N = std::sqrt(value.loads_N + pressed);
-  for (std::size_t i = 0; i < 3 * n; ++i)
-    if (!(level.active[i] > 0)) value.gradient[i] = 0;
   value.gradient[3 * n] = 0;
-  if (travels && force_N) {
-    value.potential -= *force_N * at.s;
-    value.gradient[3 * n] = value.barForce_N - *force_N;
-  }
-  return std::isfinite(value.potential);
+  return true;
 }
+
+namespace {
+
+/// Force of the bed on a place of the surface that has moved by u, N.
+Eigen::Vector3d forceOf(const BedSample& bed, const Eigen::Vector3d& u) {
+  const double along = u.dot(bed.outward);
+  return -bed.k_N_m * std::max(0.0, along) * bed.outward - bed.tangential_N_m * (u - along * bed.outward);
+}
+
+/// A tether where it is now.
+struct Pulled {
+  Eigen::Vector3d out = Eigen::Vector3d::Zero();  ///< unit, from its anchor
+  double length_m = 0, longer_m = 0;
+
+  Pulled(const Tether& tether, const Eigen::Vector3d& u) {
+    const Eigen::Vector3d from = tether.p_m + u - tether.anchor_m;
+    length_m = from.norm();
+    if (length_m > 0) out = from / length_m;
+    longer_m = length_m - tether.length_m;
+    if (!tether.twoSided) longer_m = std::max(0.0, longer_m);
+  }
+};
+
+}  // namespace
 
 void ContactEnergy::addBed(const State& at, Value& value) const {
   const SolidLevel& level = hierarchy_.level(top_);
   for (std::size_t b = 0; b < bed_.size(); ++b) {
     const CarriedPoint& point = level.points[surface_.size() + b];
-    const double into = point.at(at.u.data(), level.nodes()).dot(bed_[b].outward);
-    if (into <= 0) continue;
-    value.potential += 0.5 * bed_[b].k_N_m * into * into;
-    point.add<double>(bed_[b].k_N_m * into * bed_[b].outward, value.gradient.data(), level.nodes());
+    const Eigen::Vector3d u = point.at(at.u.data(), level.nodes());
+    const Eigen::Vector3d force = forceOf(bed_[b], u);
+    if (force.isZero(0)) continue;
+    value.potential -= 0.5 * force.dot(u);
+    point.add<double>(-force, value.gradient.data(), level.nodes());
   }
+}
+
+void ContactEnergy::addTethers(const State& at, Value& value) const {
+  const SolidLevel& level = hierarchy_.level(top_);
+  for (std::size_t t = 0; t < tethers_.size(); ++t) {
+    const CarriedPoint& point = level.points[surface_.size() + bed_.size() + t];
+    const Pulled pulled(tethers_[t], point.at(at.u.data(), level.nodes()));
+    value.potential += 0.5 * tethers_[t].k_N_m * pulled.longer_m * pulled.longer_m;
+    point.add<double>(tethers_[t].k_N_m * pulled.longer_m * pulled.out, value.gradient.data(), level.nodes());
+  }
+}
+
+double ContactEnergy::addHolding(const State& at, double* forces, std::vector<Eigen::Vector3d>& tether_N) const {
+  const SolidLevel& level = hierarchy_.level(top_);
+  double energy_J = 0;
+  for (std::size_t b = 0; b < bed_.size(); ++b) {
+    const CarriedPoint& point = level.points[surface_.size() + b];
+    const Eigen::Vector3d u = point.at(at.u.data(), level.nodes()), force = forceOf(bed_[b], u);
+    energy_J -= 0.5 * force.dot(u);
+    point.add<double>(force, forces, level.nodes());
+  }
+  for (std::size_t t = 0; t < tethers_.size(); ++t) {
+    const CarriedPoint& point = level.points[surface_.size() + bed_.size() + t];
+    const Pulled pulled(tethers_[t], point.at(at.u.data(), level.nodes()));
+    energy_J += 0.5 * tethers_[t].k_N_m * pulled.longer_m * pulled.longer_m;
+    tether_N.push_back(-tethers_[t].k_N_m * pulled.longer_m * pulled.out);
+    point.add<double>(tether_N.back(), forces, level.nodes());
+  }
+  return energy_J;
 }
 
 template <class F>
@@ -184,40 +254,52 @@ void ContactEnergy::forTriangles(const State& at, const F& f) const {
   constexpr std::array<std::array<std::size_t, 3>, 4> triangles = {{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}}};
   const SolidLevel& level = hierarchy_.level(top_);
   for (std::size_t p = 0; p < pressures_.size(); ++p) {
-    const std::size_t first = surface_.size() + bed_.size() + 4 * p;
+    const FollowerFace& face = pressures_[p];
+    const std::size_t first = surface_.size() + bed_.size() + tethers_.size() + 4 * p;
     std::array<Eigen::Vector3d, 4> x;
     for (std::size_t c = 0; c < 4; ++c)
-      x[c] = pressures_[p].corner_m[c] - middle_ + level.points[first + c].at(at.u.data(), level.nodes());
-    const double share = pressureShare_ * pressures_[p].pressure_Pa / 12;
-    for (const auto& t : triangles)
-      f(std::array<std::size_t, 3>{first + t[0], first + t[1], first + t[2]},
-        std::array<Eigen::Vector3d, 3>{x[t[0]], x[t[1]], x[t[2]]}, share);
+      x[c] = face.corner_m[c] + level.points[first + c].at(at.u.data(), level.nodes());
+    for (const auto& t : triangles) {
+      FollowerTriangle triangle{{x[t[0]], x[t[1]], x[t[2]]}, 0.5 * pressureShare_ * face.pressure_Pa, 0, {}};
+      if (!face.shear_Pa.isZero(0)) {
+        Eigen::Matrix<double, 3, 2> edges;
+        edges << face.corner_m[t[1]] - face.corner_m[t[0]], face.corner_m[t[2]] - face.corner_m[t[0]];
+        const Eigen::Vector2d along =
+            (edges.transpose() * edges).inverse() * (edges.transpose() * face.shear_Pa.normalized());
+        triangle.shear_Pa = 0.5 * pressureShare_ * face.shear_Pa.norm();
+        triangle.along = {along[0], along[1]};
+      }
+      f(std::array<std::size_t, 3>{first + t[0], first + t[1], first + t[2]}, triangle);
+    }
   }
 }
 
-/// Pressure times the volume behind the faces; its gradient is pressure times deformed area.
 void ContactEnergy::addPressures(const State& at, Value& value) const {
   const SolidLevel& level = hierarchy_.level(top_);
-  forTriangles(at, [&](const auto& point, const auto& x, double share) {
-    value.potential += share * x[0].dot(x[1].cross(x[2]));
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Eigen::Vector3d g = share * x[(i + 1) % 3].cross(x[(i + 2) % 3]);
-      level.points[point[i]].template add<double>(g, value.gradient.data(), level.nodes());
-    }
-    const double force = 6 * share * (x[1] - x[0]).cross(x[2] - x[0]).norm() / 2;
-    value.loads_N += force * force;
+  forTriangles(at, [&](const auto& points, const FollowerTriangle& triangle) {
+    if (potential_) value.potential += triangle.pressure_Pa * triangle.volume_m3(*potential_);
+    const Eigen::Vector3d force = triangle.force_N();
+    for (const std::size_t p : points)
+      level.points[p].template add<double>(-force / 3, value.gradient.data(), level.nodes());
+    value.loads_N += force.squaredNorm();
   });
+}
+
+Eigen::Vector3d ContactEnergy::following_N(const State& at) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  forTriangles(at, [&](const auto&, const FollowerTriangle& triangle) { sum += triangle.force_N(); });
+  return sum;
 }
 
 std::vector<FollowerStiffness> ContactEnergy::followers(const State& at) const {
   std::vector<FollowerStiffness> out;
-  forTriangles(at, [&](const auto& point, const auto& x, double share) {
-    FollowerStiffness t;
+  forTriangles(at, [&](const auto& points, const FollowerTriangle& triangle) {
+    const std::array<Eigen::Matrix3d, 3> stiffness = triangle.stiffness_N_m();
+    FollowerStiffness& f = out.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) {
-      t.point[i] = static_cast<std::uint32_t>(point[i]);
-      t.scaled[i] = (share * x[i]).template cast<float>();
+      f.point[i] = static_cast<std::uint32_t>(points[i]);
+      f.share[i] = (-stiffness[i] / 3).template cast<float>();
     }
-    out.push_back(t);
   });
   return out;
 }
@@ -250,15 +332,31 @@ bool ContactEnergy::passes(const State& from, const State& to) const {
 std::vector<PointStiffness> ContactEnergy::stiffness(const State& at) const {
   std::vector<PointStiffness> out;
   const SolidLevel& level = hierarchy_.level(top_);
-  for (std::size_t b = 0; b < bed_.size(); ++b) {
-    const std::size_t point = surface_.size() + b;
-    // At rest the bed is there already: a body that only lies on it is held.
-    if (level.points[point].at(at.u.data(), level.nodes()).dot(bed_[b].outward) < 0) continue;
-    PointStiffness k;
+  const auto holds = [&](std::size_t point, const Eigen::Matrix3d& exact, const Eigen::Matrix3d& positive) {
+    PointStiffness& k = out.emplace_back();
     k.point = static_cast<std::uint32_t>(point);
     k.bar = false;
-    k.positive = k.exact = (bed_[b].k_N_m * bed_[b].outward * bed_[b].outward.transpose()).cast<float>();
-    out.push_back(k);
+    k.exact = exact.cast<float>();
+    k.positive = positive.cast<float>();
+  };
+  for (std::size_t b = 0; b < bed_.size(); ++b) {
+    const std::size_t point = surface_.size() + b;
+    const Eigen::Matrix3d nn = bed_[b].outward * bed_[b].outward.transpose();
+    Eigen::Matrix3d K = bed_[b].tangential_N_m * (Eigen::Matrix3d::Identity() - nn);
+    // At rest the bed is there already: a body that only lies on it is held.
+    if (level.points[point].at(at.u.data(), level.nodes()).dot(bed_[b].outward) >= 0) K += bed_[b].k_N_m * nn;
+    if (!K.isZero(0)) holds(point, K, K);
+  }
+  for (std::size_t t = 0; t < tethers_.size(); ++t) {
+    const std::size_t point = surface_.size() + bed_.size() + t;
+    const Pulled pulled(tethers_[t], level.points[point].at(at.u.data(), level.nodes()));
+    // So are tethers that are not slack.
+    if (!tethers_[t].twoSided && pulled.length_m < (1 - 1e-9) * tethers_[t].length_m) continue;
+    const Eigen::Matrix3d nn = pulled.out * pulled.out.transpose();
+    const double turn = pulled.length_m > 0 ? pulled.longer_m / pulled.length_m : 0;
+    const Eigen::Matrix3d across = tethers_[t].k_N_m * turn * (Eigen::Matrix3d::Identity() - nn);
+    const Eigen::Matrix3d along = tethers_[t].k_N_m * nn;
+    holds(point, along + across, turn > 0 ? Eigen::Matrix3d(along + across) : along);
   }
   if (!bar_) return out;
   for (const std::uint32_t p : near(at)) {
@@ -266,11 +364,10 @@ std::vector<PointStiffness> ContactEnergy::stiffness(const State& at) const {
     if (!barrier_.acts(gap.g_m) || !barrier_.feasible(gap.g_m)) continue;
     const Barrier::Value phi = barrier_.at(gap.g_m);
     const Eigen::Matrix3d nn = gap.n * gap.n.transpose();
-    const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity() - nn - gap.t * gap.t.transpose();
     PointStiffness k;
     k.point = p;
     k.positive = (surface_[p].area_m2 * phi.second * nn).cast<float>();
-    k.exact = (surface_[p].area_m2 * (phi.second * nn + phi.first / gap.rho_m * turn)).cast<float>();
+    k.exact = (surface_[p].area_m2 * (phi.second * nn + phi.first * gap.curvature())).cast<float>();
     out.push_back(k);
   }
   return out;

@@ -6,12 +6,13 @@
 
 #include "mechanics/contact/barrier.h"
 #include "mechanics/contact/contact_solve.h"
+#include "mechanics/contact/follower_loads.h"
 #include "mechanics/contact/solid_hierarchy.h"
 
 namespace glisson::mechanics {
 
 /// Potential of body, bar and loads on one level of a hierarchy:
-/// Π(u, s) = Σ cells + springs + Σ w φ(g(x_p, s)) − f·u − F s, and its derivatives.
+/// Π(u, s) = Σ cells + springs + bed + tethers + Σ w φ(g(x_p, s)) − f·u + p V − F s, and its derivatives.
 class ContactEnergy {
  public:
   /// surface: the samples that the hierarchy carries, in its order.
@@ -24,7 +25,7 @@ class ContactEnergy {
     double s = 0;
   };
   struct Value {
-    double potential = 0;          ///< J
+    double potential = 0;          ///< J; without the loads that follow where they have none
     std::vector<double> gradient;  ///< size() of the level; the last entry is bar force − F, or 0 where s is given
     double barForce_N = 0;         ///< along the hoist, on the body
     double contact_N = 0;          ///< Σ |force| of all samples
@@ -36,12 +37,20 @@ class ContactEnergy {
   void setLoads(std::size_t top, const std::vector<double>& loads);
   /// False where the law or the contact is not defined (a sample deeper than the guard).
   bool evaluate(const State& at, std::optional<double> force_N, bool travels, Value& value) const;
+  /// The same for the bar where it is, at fixed degrees of freedom too: there the gradient is the force of the clamp.
+  bool unbalanced(const State& at, Value& value) const;
   /// True where no sample passes through the bar on the straight way from one state to the next.
   bool passes(const State& from, const State& to) const;
   std::vector<PointStiffness> stiffness(const State& at) const;
   std::vector<FollowerStiffness> followers(const State& at) const;
-  /// Share of the follower pressures that acts; 1 at first.
+  /// Share of the loads that follow their faces; 1 at first.
   void setPressureShare(double share) { pressureShare_ = share; }
+  /// False where loads that follow their faces have no potential: the tangent is unsymmetric.
+  bool hasPotential() const { return pressures_.empty() || potential_.has_value(); }
+  Eigen::Vector3d following_N(const State& at) const;  ///< sum of the loads that follow their faces
+  /// Energy of bed and tethers, J; their forces on the body (N) are added to three arrays of nodes, and those of the
+  /// tethers given one by one.
+  double addHolding(const State& at, double* forces, std::vector<Eigen::Vector3d>& tether_N) const;
 
   /// The bar is taken elsewhere, beside its travel.
   void moveBar(const Eigen::Vector3d& by_m);
@@ -58,8 +67,9 @@ class ContactEnergy {
 
  private:
   void addBed(const State& at, Value& value) const;
+  void addTethers(const State& at, Value& value) const;
   void addPressures(const State& at, Value& value) const;
-  /// The four triangles of a face, half of each pair of diagonals.
+  /// f(points, triangle) for the four triangles of a face, each pair of diagonals half.
   template <class F>
   void forTriangles(const State& at, const F& f) const;
   /// The bar is brought from behind to its first touch.
@@ -72,8 +82,9 @@ class ContactEnergy {
   const SolidHierarchy& hierarchy_;
   std::vector<SurfaceSample> surface_;
   std::vector<BedSample> bed_;            ///< points behind those of the surface
-  std::vector<FollowerFace> pressures_;   ///< four points each behind those of the bed
-  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< places of follower faces are counted from here
+  std::vector<Tether> tethers_;           ///< points behind those of the bed
+  std::vector<FollowerFace> pressures_;   ///< four points each behind those of the tethers
+  std::optional<PressurePotential> potential_;
   double pressureShare_ = 1;
   SolidLaw law_;
   std::optional<RigidBar> bar_;

@@ -137,6 +137,7 @@ std::vector<SurfaceSample> carriedSurface(SolidHierarchy& hierarchy, const Conta
     places.push_back(p_m);
   };
   for (const BedSample& b : problem.bed) carried(b.p_m);
+  for (const Tether& t : problem.tethers) carried(t.p_m);
   for (const FollowerFace& f : problem.pressures)
     for (const Eigen::Vector3d& corner : f.corner_m) carried(corner);
   hierarchy.setPoints(cells, places);
@@ -229,31 +230,30 @@ void describe(const SolidHierarchy& hierarchy, const ContactEnergy& energy, cons
   describeContact(energy, kept, at, problem.surface.size(), out);
   if (energy.hasBar()) {
     out.bar = energy.bar();
-    for (Eigen::Vector3d& p : out.bar.centreline_m) p -= before_m * out.bar.hoist;
+    out.bar.shift(-before_m * out.bar.hoist);
   }
   if (energy.top() != 0) return;
   const VoxelMesh mesh(problem.problem.body);
   Solution& solution = out.solution;
   solution.u_m.resize(3, mesh.nodeCount());
   solution.reaction_N = NodalField::Zero(3, mesh.nodeCount());
-  std::vector<double> force(level.size());
+  std::vector<double> force(level.size()), holding(3 * n, 0.0);
   level.forces(energy.law(), at.u.data(), solution.energy_J, force.data());
+  ContactEnergy::Value value;
+  energy.unbalanced(at, value);
+  out.following_N = energy.following_N(at);
+  out.tether_N.clear();
+  solution.energy_J += energy.addHolding(at, holding.data(), out.tether_N);
   for (int node = 0; node < mesh.nodeCount(); ++node) {
     const std::size_t slot = slotOf(level, mesh, node);
     for (std::size_t c = 0; c < 3; ++c) {
       const auto axis = static_cast<Eigen::Index>(c);
-      solution.u_m(axis, node) = at.u[c * n + slot];
-      if (level.active[c * n + slot] > 0) continue;
-      const double load = problem.problem.f_N.cols() > 0 ? problem.problem.f_N(axis, node) : 0.0;
-      solution.reaction_N(axis, node) = force[c * n + slot] - load;
+      const std::size_t i = c * n + slot;
+      solution.u_m(axis, node) = at.u[i];
+      solution.reaction_N(axis, node) = holding[i];
+      if (!(level.active[i] > 0)) solution.reaction_N(axis, node) += value.gradient[i];
     }
   }
-  for (const BedSample& b : problem.bed)
-    if (const auto cell = carrierCell(mesh, b.p_m)) {
-      const Eigen::Vector3d u = displacementAt(mesh, solution.u_m, b.p_m).value_or(Eigen::Vector3d::Zero());
-      const int node = mesh.nodeAt(cell->x(), cell->y(), cell->z());
-      solution.reaction_N.col(node) -= b.k_N_m * std::max(0.0, u.dot(b.outward)) * b.outward;
-    }
   for (const Spring& s : problem.problem.supports.springs)
     solution.reaction_N.col(s.node) -= s.k_N_m * solution.u_m.col(s.node);
 }

@@ -20,17 +20,32 @@ struct SurfaceSample {
   double area_m2 = 0;
 };
 
-/// A face under a pressure that follows it: corners in turn, anticlockwise seen from outside, at rest (grid axes, m).
+/// A face under a load that follows it, per deformed area: corners in turn, anticlockwise seen from outside, at rest
+/// (grid axes, m).
 struct FollowerFace {
   std::array<Eigen::Vector3d, 4> corner_m;
   double pressure_Pa = 0;  ///< positive pushes against the outward normal
+  /// In the plane of the face at rest, Pa; its direction goes with the line of material along it.
+  Eigen::Vector3d shear_Pa = Eigen::Vector3d::Zero();
 };
 
-/// A place of the surface on a bed that presses and does not pull: force −k max(0, u·outward) outward.
+/// A place of the surface on a bed that presses and does not pull: force −k max(0, u·outward) outward, and across it
+/// −k' u whether it presses or not.
 struct BedSample {
   Eigen::Vector3d p_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();
   double k_N_m = 0;
+  double tangential_N_m = 0;  ///< k'
+};
+
+/// A fibre from a place of the surface to a place that does not move: it pulls by k times what it is longer than
+/// `length_m`, and pushes where it is shorter only if it is two-sided.
+struct Tether {
+  Eigen::Vector3d p_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d anchor_m = Eigen::Vector3d::Zero();
+  double length_m = 0;
+  double k_N_m = 0;
+  bool twoSided = false;
 };
 
 /// A body under large deformation, and the rigid bar that is moved against it.
@@ -43,6 +58,7 @@ struct ContactProblem {
   double rindPoisson = 0.3;
   std::vector<FollowerFace> pressures;  ///< that follow their faces
   std::vector<BedSample> bed;
+  std::vector<Tether> tethers;
   std::optional<RigidBar> bar;       ///< from anywhere behind its first touch; travel counts from the first force
   std::optional<double> force_N;     ///< on the bar along its hoist; or
   std::optional<double> travel_m;    ///< of the bar
@@ -66,7 +82,7 @@ struct PathStep {
 };
 
 struct ContactSolution {
-  Solution solution;  ///< of the last equilibrium reached
+  Solution solution;  ///< of the last equilibrium reached; energy_J: of body, capsule, springs, bed and tethers
   ContactOutcome outcome = ContactOutcome::Stopped;
   double travel_m = 0;                  ///< of the bar from the first force: half the barrier's width before the first touch
   double capacity_N = 0;                ///< largest force met on the path
@@ -79,6 +95,8 @@ struct ContactSolution {
   double pressureMax_Pa = 0, penetrationMax_m = 0;
   std::vector<double> pressure_Pa;       ///< per surface sample
   Eigen::Matrix3Xd surface_u_m;          ///< displacement of each surface sample
+  Eigen::Vector3d following_N = Eigen::Vector3d::Zero();  ///< sum of the loads that follow their faces, as they end
+  std::vector<Eigen::Vector3d> tether_N;                  ///< of each tether on the body
   double smallestJ = 1;
   int newton = 0, inner = 0;             ///< iterations, path included
   RigidBar bar;                          ///< its centre line at travel 0
@@ -88,8 +106,10 @@ struct ContactSolution {
 /// method on the potential energy: exact tangent, conjugate gradients with a multigrid rebuilt at each step, line search
 /// on the energy. Contact is a logarithmic barrier in the gap of each surface sample, whose exact second derivative is
 /// used. The bar is first moved step by step on coarse cells, until the force or the travel is reached or the force
-/// falls; then the end of that path is converged on the body's own cells. Without a bar the dead loads are applied in
-/// full, in smaller steps where that fails. The same bits with any number of threads.
+/// falls; then the end of that path is converged on the body's own cells. Without a bar the loads are applied in full, in
+/// smaller steps where that fails. Loads that follow their faces and have no potential make the tangent unsymmetric: then
+/// GMRES takes the place of conjugate gradients, and the work along a step that of the energy. The same bits with any
+/// number of threads.
 /// Throws BadInput (no sample of the surface can be met by the bar; a body that nothing holds), Cancelled.
 ContactSolution solveContact(const ContactProblem& problem, const ContactOptions& options = {},
                              const Progress& progress = {});

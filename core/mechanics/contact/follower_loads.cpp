@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "mechanics/contact/contact_setup.h"
@@ -24,49 +25,107 @@ std::vector<std::pair<int, double>> sharesOf(const VoxelMesh& mesh, const Eigen:
   return shares;
 }
 
-bool haveClosedOrHeldRim(const VoxelMesh& mesh, const std::vector<FollowerFace>& faces,
-                         const std::vector<Fixation>& fixations) {
-  using Corner = std::array<int, 3>;
+namespace {
+
+Eigen::Matrix3d crossed(const Eigen::Vector3d& d) {
+  Eigen::Matrix3d m;
+  m << 0, -d.z(), d.y(), d.z(), 0, -d.x(), -d.y(), d.x(), 0;
+  return m;
+}
+
+using Corner = std::array<int, 3>;
+
+/// Edges of faces, and by how much the pressures on both sides differ, Pa.
+std::map<std::pair<Corner, Corner>, double> pressureSteps(const VoxelMesh& mesh, const std::vector<FollowerFace>& faces) {
   const auto cornerAt = [&](const Eigen::Vector3d& p_m) {
     const Eigen::Vector3i i = p_m.cwiseQuotient(mesh.h_m()).array().round().cast<int>();
     return Corner{i.x(), i.y(), i.z()};
   };
-  std::map<std::pair<Corner, Corner>, int> edges;
+  std::map<std::pair<Corner, Corner>, double> steps;
   for (const FollowerFace& f : faces)
     for (std::size_t c = 0; c < 4; ++c) {
       const Corner a = cornerAt(f.corner_m[c]), b = cornerAt(f.corner_m[(c + 1) % 4]);
-      ++edges[std::minmax(a, b)];
+      steps[std::minmax(a, b)] += a < b ? f.pressure_Pa : -f.pressure_Pa;
     }
-  std::vector<char> held(static_cast<std::size_t>(mesh.nodeCount()), 0);
-  for (const Fixation& f : fixations)
-    if (f.axis[0] && f.axis[1] && f.axis[2]) held[static_cast<std::size_t>(f.node)] = 1;
-  const auto isHeld = [&](const Corner& c) {
-    const int node = mesh.nodeAt(c[0], c[1], c[2]);
-    return node >= 0 && held[static_cast<std::size_t>(node)] != 0;
-  };
-  return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
-    return edge.second > 1 || (isHeld(edge.first.first) && isHeld(edge.first.second));
-  });
+  return steps;
 }
 
-NodalField followerForces(const VoxelMesh& mesh, const std::vector<FollowerFace>& faces, const NodalField& u_m) {
-  constexpr std::array<std::array<std::size_t, 3>, 4> triangles = {{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}}};
-  NodalField forces = NodalField::Zero(3, mesh.nodeCount());
+}  // namespace
+
+std::optional<PressurePotential> potentialOf(const VoxelMesh& mesh, const std::vector<FollowerFace>& faces,
+                                             const std::vector<Fixation>& fixations) {
+  double largest_Pa = 0;
+  PressurePotential potential;
   for (const FollowerFace& f : faces) {
-    std::array<std::vector<std::pair<int, double>>, 4> shares;
-    std::array<Eigen::Vector3d, 4> x = f.corner_m;
-    for (std::size_t c = 0; c < 4; ++c) {
-      shares[c] = sharesOf(mesh, f.corner_m[c]);
-      for (const auto& [node, share] : shares[c]) x[c] += share * u_m.col(node);
-    }
-    // Both pairs of diagonals count half.
-    for (const auto& t : triangles) {
-      const Eigen::Vector3d area = 0.25 * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
-      for (const std::size_t c : t)
-        for (const auto& [node, share] : shares[c]) forces.col(node) -= share * f.pressure_Pa / 3 * area;
-    }
+    if (!f.shear_Pa.isZero(0)) return {};
+    largest_Pa = std::max(largest_Pa, std::abs(f.pressure_Pa));
+    potential.apex_m += f.corner_m[0] / static_cast<double>(faces.size());
   }
-  return forces;
+  std::map<int, Fixation> held;
+  for (const Fixation& f : fixations) held[f.node] = f;
+  const double same_m = 1e-9 * mesh.h_m().minCoeff();
+  std::array<std::optional<double>, 3> plane;
+  potential.weight.setOnes();
+  for (const auto& [edge, step_Pa] : pressureSteps(mesh, faces)) {
+    if (std::abs(step_Pa) <= 1e-12 * largest_Pa) continue;
+    const auto& [a, b] = edge;
+    const auto one = held.find(mesh.nodeAt(a[0], a[1], a[2])), other = held.find(mesh.nodeAt(b[0], b[1], b[2]));
+    if (one == held.end() || other == held.end()) return {};
+    // The planes of constant coordinates that the edge does not leave: in two of them, or clamped, it does no work.
+    int planes = 0, axis = 0;
+    double at_m = 0;
+    bool clamped = true;
+    for (int c = 0; c < 3; ++c) {
+      const auto i = static_cast<std::size_t>(c);
+      clamped = clamped && one->second.axis[i] && other->second.axis[i];
+      if (!one->second.axis[i] || !other->second.axis[i]) continue;
+      const double first_m = a[i] * mesh.h_m()[c] + one->second.value_m[c];
+      if (std::abs(first_m - (b[i] * mesh.h_m()[c] + other->second.value_m[c])) > same_m) continue;
+      ++planes;
+      axis = c;
+      at_m = first_m;
+    }
+    if (clamped || planes > 1) continue;
+    if (planes == 0) return {};
+    std::optional<double>& known = plane[static_cast<std::size_t>(axis)];
+    // Parallel planes cannot all pass through the apex: volume is then not counted along their normal.
+    if (known && std::abs(*known - at_m) > same_m) potential.weight[axis] = 0;
+    known = at_m;
+    potential.apex_m[axis] = at_m;
+  }
+  if (potential.weight.isZero(0)) return {};
+  potential.weight /= potential.weight.sum();
+  return potential;
+}
+
+Eigen::Vector3d FollowerTriangle::force_N() const {
+  const Eigen::Vector3d first = x_m[1] - x_m[0], second = x_m[2] - x_m[0], area = 0.5 * first.cross(second);
+  Eigen::Vector3d force = -pressure_Pa * area;
+  if (shear_Pa != 0) force += shear_Pa * area.norm() * (along[0] * first + along[1] * second).normalized();
+  return force;
+}
+
+std::array<Eigen::Matrix3d, 3> FollowerTriangle::stiffness_N_m() const {
+  const Eigen::Vector3d first = x_m[1] - x_m[0], second = x_m[2] - x_m[0], area = 0.5 * first.cross(second);
+  const Eigen::Vector3d v = along[0] * first + along[1] * second;
+  const bool shears = shear_Pa != 0 && area.norm() > 0 && v.norm() > 0;
+  std::array<Eigen::Matrix3d, 3> stiffness;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Eigen::Matrix3d ofArea = -0.5 * crossed(x_m[(j + 1) % 3] - x_m[(j + 2) % 3]);
+    stiffness[j] = -pressure_Pa * ofArea;
+    if (!shears) continue;
+    const Eigen::Vector3d d = v.normalized();
+    const double share = j == 0 ? -along[0] - along[1] : along[j - 1];
+    stiffness[j] += shear_Pa * d * (area.normalized().transpose() * ofArea);
+    stiffness[j] += shear_Pa * share * area.norm() / v.norm() * (Eigen::Matrix3d::Identity() - d * d.transpose());
+  }
+  return stiffness;
+}
+
+double FollowerTriangle::volume_m3(const PressurePotential& potential) const {
+  const Eigen::Vector3d area = 0.5 * (x_m[1] - x_m[0]).cross(x_m[2] - x_m[0]);
+  const Eigen::Vector3d middle = (x_m[0] + x_m[1] + x_m[2]) / 3 - potential.apex_m;
+  return potential.weight.cwiseProduct(middle).dot(area);
 }
 
 }  // namespace glisson::mechanics

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,12 +12,31 @@ namespace glisson::mechanics {
 /// none negative, together 1. Empty where no filled cell lies within three cells.
 std::vector<std::pair<int, double>> sharesOf(const VoxelMesh& mesh, const Eigen::Vector3d& p_m);
 
-/// Whether pressure on these faces has a potential: every edge belongs to two of them or is held at both ends.
-bool haveClosedOrHeldRim(const VoxelMesh& mesh, const std::vector<FollowerFace>& faces,
-                         const std::vector<Fixation>& fixations);
+/// Pressures that follow their faces as a potential: Σ p V, V the volume behind the faces as ∫ W (x − apex)·n dA with
+/// W = diag(weight) of trace 1. Both are chosen so that the rim of the faces does no work.
+struct PressurePotential {
+  Eigen::Vector3d weight = Eigen::Vector3d::Zero();
+  Eigen::Vector3d apex_m = Eigen::Vector3d::Zero();
+};
 
-/// Forces (N) of the faces' pressures at displacements u (m): pressure times area vector of the deformed face, in equal
-/// parts on the corners of its triangles.
-NodalField followerForces(const VoxelMesh& mesh, const std::vector<FollowerFace>& faces, const NodalField& u_m);
+/// Nothing where the loads have no potential: shears, or a rim (an edge on which the pressures of the faces do not cancel)
+/// that may move other than along planes of the grid's axes.
+std::optional<PressurePotential> potentialOf(const VoxelMesh& mesh, const std::vector<FollowerFace>& faces,
+                                             const std::vector<Fixation>& fixations);
+
+/// A triangle of a follower face where it is now: places (m), and the load per deformed area.
+struct FollowerTriangle {
+  std::array<Eigen::Vector3d, 3> x_m;
+  double pressure_Pa = 0;
+  double shear_Pa = 0;
+  std::array<double, 2> along{};  ///< direction of the shear at rest, in edges 0→1 and 0→2
+
+  /// Force of its load, N.
+  Eigen::Vector3d force_N() const;
+  /// Its derivatives by the three places, N/m.
+  std::array<Eigen::Matrix3d, 3> stiffness_N_m() const;
+  /// ∫ W (x − apex)·n dA, m³.
+  double volume_m3(const PressurePotential& potential) const;
+};
 
 }  // namespace glisson::mechanics

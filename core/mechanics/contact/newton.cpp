@@ -40,7 +40,10 @@ struct Minimiser {
   bool direction(bool positive, NewtonRun& run) {
     std::vector<double> b(now.gradient.size());
     for (std::size_t i = 0; i < b.size(); ++i) b[i] = -now.gradient[i];
-    const TangentSolve solve = hierarchy.solve(energy.top(), b, step, forcing, goal.innerLimit, positive);
+    const bool symmetric = positive || energy.hasPotential();
+    const TangentSolve solve = symmetric
+                                   ? hierarchy.solve(energy.top(), b, step, forcing, goal.innerLimit, positive)
+                                   : hierarchy.solveUnsymmetric(energy.top(), b, step, forcing, goal.innerLimit);
     run.inner += solve.iterations;
     if (!positive) run.indefinite = solve.outcome == TangentOutcome::Indefinite;
     if (!travels) step.back() = 0;
@@ -49,7 +52,9 @@ struct Minimiser {
     if (!std::isfinite(largest)) return false;
     if (largest > largestStep_m)
       for (double& v : step) v *= largestStep_m / largest;
-    return dotOf(now.gradient, step) < 0;
+    const bool falls = dotOf(now.gradient, step) < 0;
+    if (!symmetric) run.indefinite = !falls;
+    return falls;
   }
   bool search(ContactEnergy::State& state) {
     const double slope = dotOf(now.gradient, step), size = normOf(now.gradient);
@@ -63,7 +68,9 @@ struct Minimiser {
       // than they began.
       const double zone_m = energy.barrier().width_m;
       if (next.deepest_m > std::max(zone_m, now.deepest_m + deeperOf * zone_m)) continue;
-      const double fall = now.potential - next.potential;
+      // Where loads have no potential, what the unbalanced forces do on the way stands for its fall.
+      const double fall = energy.hasPotential() ? now.potential - next.potential
+                                                : -0.5 * scale * (slope + dotOf(next.gradient, step));
       const bool rounding = std::abs(fall) <= 1e-11 * (std::abs(now.potential) + std::abs(next.potential));
       if (!(fall >= -armijo * scale * slope) && !(rounding && normOf(next.gradient) < size)) continue;
       if (!energy.passes(state, trial)) continue;

@@ -1,5 +1,6 @@
 #include "mechanics/contact/solid_hierarchy.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -202,6 +203,64 @@ TangentSolve SolidHierarchy::solve(std::size_t top, const std::vector<double>& b
       break;
     }
   }
+  for (std::size_t i = 0; i < n; ++i) x[i] = largest * static_cast<double>(sum[i]);
+  return result;
+}
+
+TangentSolve SolidHierarchy::solveUnsymmetric(std::size_t top, const std::vector<double>& b, std::vector<double>& x,
+                                              double tolerance, int limit) {
+  constexpr int most = 40;  // vectors kept until it starts anew
+  const SolidLevel& level = levels_[top];
+  const std::size_t n = level.size();
+  double largest = 0;
+  for (const double v : b) largest = std::max(largest, std::abs(v));
+  TangentSolve result;
+  x.assign(n, 0.0);
+  std::vector<float> rhs(n), r, sum(n, 0.0F), w(n);
+  if (largest > 0)
+    for (std::size_t i = 0; i < n; ++i) rhs[i] = static_cast<float>(b[i] / largest);
+  r = rhs;
+  const double goal = tolerance * std::sqrt(dotOf(r, r));
+  double size = std::sqrt(dotOf(r, r));
+  const auto add = [&](const std::vector<float>& v, double factor, std::vector<float>& to) {
+    parallelChunks(n, chunk, [&](std::size_t begin, std::size_t end) {
+      const auto f = static_cast<float>(factor);
+      for (std::size_t i = begin; i < end; ++i) to[i] += f * v[i];
+    });
+  };
+  while (size > goal && result.iterations < limit) {
+    // Flexible, from the right: the cycle runs in float and is only nearly linear.
+    std::vector<std::vector<float>> basis(1, std::vector<float>(n, 0.0F)), conditioned;
+    add(r, 1 / size, basis[0]);
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(most + 1, most);
+    Eigen::VectorXd y;
+    for (int j = 0; j < most && result.iterations < limit; ++j) {
+      ++result.iterations;
+      double rz = 0;
+      precondition(top, basis.back(), conditioned.emplace_back(), rz);
+      level.apply(conditioned.back().data(), w.data(), false);
+      for (int i = 0; i <= j; ++i) {
+        H(i, j) = dotOf(basis[static_cast<std::size_t>(i)], w);
+        add(basis[static_cast<std::size_t>(i)], -H(i, j), w);
+      }
+      H(j + 1, j) = std::sqrt(dotOf(w, w));
+      const Eigen::VectorXd first = size * Eigen::VectorXd::Unit(j + 2, 0);
+      const Eigen::MatrixXd Hj = H.topLeftCorner(j + 2, j + 1);
+      y = Hj.colPivHouseholderQr().solve(first);
+      if (!(H(j + 1, j) > 0) || (first - Hj * y).norm() <= goal) break;
+      basis.emplace_back(n, 0.0F);
+      add(w, 1 / H(j + 1, j), basis.back());
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(y.size()); ++i)
+      add(conditioned[i], y[static_cast<Eigen::Index>(i)], sum);
+    level.apply(sum.data(), w.data(), false);
+    r = rhs;
+    add(w, -1, r);
+    const double before = size;
+    size = std::sqrt(dotOf(r, r));
+    if (!(size < 0.999 * before)) break;
+  }
+  if (size <= 1.5 * goal) result.outcome = TangentOutcome::Converged;
   for (std::size_t i = 0; i < n; ++i) x[i] = largest * static_cast<double>(sum[i]);
   return result;
 }

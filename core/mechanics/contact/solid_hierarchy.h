@@ -43,6 +43,9 @@ class SolidHierarchy {
   /// float; b is scaled to its largest entry inside.
   TangentSolve solve(std::size_t top, const std::vector<double>& b, std::vector<double>& x, double tolerance, int limit,
                      bool positive);
+  /// The same by GMRES with the exact tangent, which need not be symmetric; it ends as Converged or Limit.
+  TangentSolve solveUnsymmetric(std::size_t top, const std::vector<double>& b, std::vector<double>& x, double tolerance,
+                                int limit);
   /// u on level l from its parent level's, m.
   std::vector<double> prolonged(std::size_t l, const std::vector<double>& coarse) const;
 

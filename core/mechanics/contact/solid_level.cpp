@@ -253,13 +253,11 @@ void SolidLevel::applyPoints(const T* in, T* out, bool positive) const {
   }
   out[3 * n] = travels_ ? travel : T{0};
   if (positive) return;
-  for (const FollowerStiffness& t : followers)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      const Eigen::Matrix<T, 3, 1> vj = points[t.point[j]].at(in, n), vk = points[t.point[k]].at(in, n);
-      points[t.point[i]].add<T>(vj.cross(t.scaled[k].template cast<T>()) + t.scaled[j].template cast<T>().cross(vk),
-                                out, n);
-    }
+  for (const FollowerStiffness& t : followers) {
+    Eigen::Matrix<T, 3, 1> f = Eigen::Matrix<T, 3, 1>::Zero();
+    for (std::size_t j = 0; j < 3; ++j) f += t.share[j].template cast<T>() * points[t.point[j]].at(in, n);
+    for (const std::uint32_t p : t.point) points[p].add(f, out, n);
+  }
 }
 
 void SolidLevel::apply(const float* in, float* out, bool positive) const {

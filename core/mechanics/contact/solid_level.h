@@ -52,10 +52,11 @@ struct PointStiffness {
   Eigen::Matrix3f positive = Eigen::Matrix3f::Zero();
 };
 
-/// A triangle under a pressure that follows it, in the exact tangent: δf_a = δx_b × c + b × δx_c and so on in turn.
+/// A triangle under a load that follows it, in the exact tangent: each of its points bears the same force, whose negative
+/// changes by Σ share_j δx_j.
 struct FollowerStiffness {
   std::array<std::uint32_t, 3> point{};
-  std::array<Eigen::Vector3f, 3> scaled{};  ///< places times pressure over 12, N/m
+  std::array<Eigen::Matrix3f, 3> share{};  ///< N/m
 };
 
 /// Lamé's constants of cells, x fastest, Pa times the filled fraction; 0 = empty.

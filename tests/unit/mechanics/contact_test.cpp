@@ -231,15 +231,106 @@ TEST(RigidBarContact, ABarThatMeetsNothingIsRefused) {
   EXPECT_THROW(solveContact(p), BadInput);
 }
 
-TEST(RigidBarContact, ABentBladeBearsItsForceToo) {
-  // A hook of the same length bears the same force, with a moment about its own centre near 0 on a flat block.
+TEST(RigidBar, TheGapOfABentBarHasTheDerivativesItSays) {
+  // Beside the arc, over both ends, inside the bar and behind the circle's middle; no point on a border between them.
+  RigidBar bar = hook({0.08, 0.02, 0.05}, Eigen::Vector3d(1, 0.2, 0).normalized(), Eigen::Vector3d(-0.2, 1, 0).normalized(),
+                      0.08, std::numbers::pi / 2);
+  EXPECT_NEAR((bar.centre_m() - Eigen::Vector3d(0.08, 0.02, 0.05)).norm(), 0, 1e-12);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> range(-0.07, 0.07);
+  int besideArc = 0, overEnds = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Eigen::Vector3d p = bar.centre_m() + Eigen::Vector3d(range(random), range(random), 0.3 * range(random));
+    const double s = 0.1 * range(random), step = 1e-6;
+    const Gap gap = gapTo(bar, p, s);
+    if (gap.rho_m < 2e-3) continue;
+    double chords = 1;  // the distance from the drawn line, which lies within 0.06 mm of the arc
+    RigidBar drawn = bar;
+    drawn.arc.reset();
+    chords = gapTo(drawn, p, s).g_m;
+    EXPECT_NEAR(gap.g_m, chords, 7e-5);
+    bool smooth = true;
+    Eigen::Vector3d slope;
+    Eigen::Matrix3d curvature;
+    for (int c = 0; c < 3; ++c) {
+      const Gap up = gapTo(bar, p + step * Eigen::Vector3d::Unit(c), s), down = gapTo(bar, p - step * Eigen::Vector3d::Unit(c), s);
+      smooth = smooth && up.t.isZero(0) == gap.t.isZero(0) && down.t.isZero(0) == gap.t.isZero(0);
+      slope[c] = (up.g_m - down.g_m) / (2 * step);
+      curvature.col(c) = (up.n - down.n) / (2 * step);
+    }
+    if (!smooth) continue;
+    ++(gap.t.isZero(0) ? overEnds : besideArc);
+    EXPECT_LT((slope - gap.n).norm(), 1e-6);
+    EXPECT_LT((curvature - gap.curvature()).norm() / curvature.norm(), 1e-5);
+  }
+  EXPECT_GT(besideArc, 50);
+  EXPECT_GT(overEnds, 50);
+}
+
+TEST(RigidBarContact, ABentBladeBearsSmallAndLargeForces) {
   ContactProblem p = comparedBlock(5);
-  p.bar->centreline_m = hookCentreline({0.08, 0.09, 0.05}, {1, 0, 0}, {0, 0, 1}, 0.08, std::numbers::pi / 2);
+  p.bar = hook({0.08, 0.09, 0.05}, {1, 0, 0}, {0, 0, 1}, 0.08, std::numbers::pi / 2);
+  for (const double force_N : {0.01, 0.1, 1.0, 4.6}) {
+    p.force_N = force_N;
+    const ContactSolution s = solveContact(p);
+    ASSERT_TRUE(s.solution.report.converged()) << force_N << " N: " << s.solution.report.residual;
+    EXPECT_LE(s.solution.report.residual, 1e-6);
+    EXPECT_NEAR(s.force_N.y(), -force_N, 2e-6 * force_N);
+  }
+}
+
+TEST(RigidBarContact, LoadsBarAndSupportsAreInBalance) {
+  // Weight, a pressure that follows a side, springs and a clamp, and a bar that reaches over clamped cells.
+  ContactProblem p = comparedBlock(5);
+  const VoxelMesh mesh(p.problem.body);
+  p.problem.f_N.row(1).setConstant(-2.0 / mesh.nodeCount());
+  for (int n = 0; n < mesh.nodeCount(); ++n) {
+    const Eigen::Vector3i at = mesh.latticeOf(n);
+    if (at.z() == 0 && at.y() > 0) p.problem.supports.springs.push_back({n, 2.0 * Eigen::Matrix3d::Identity()});
+    if (at.x() == 0 && at.y() > 0) p.problem.supports.fixations.push_back({n, {true, false, false}, {0, 0, 0}});
+  }
+  for (int j = 0; j < 12; ++j)
+    for (int i = 0; i < 32; ++i) {
+      const auto at = [&](int a, int b) { return Eigen::Vector3d(5e-3 * Eigen::Vector3d(i + a, j + b, 20)); };
+      p.pressures.push_back({{at(0, 0), at(1, 0), at(1, 1), at(0, 1)}, 100});
+    }
+  p.bar->centreline_m = {{-0.01, 0.09, 0.05}, {0.07, 0.09, 0.05}};
   p.force_N = 3.0;
   const ContactSolution s = solveContact(p);
   ASSERT_TRUE(s.solution.report.converged());
-  EXPECT_NEAR(s.force_N.y(), -3.0, 1e-5);
-  EXPECT_NEAR(p.bar->centre_m().z(), 0.05, 1e-4);
+  EXPECT_NEAR(s.following_N.z(), -100 * 0.16 * 0.06, 0.1);
+  const Eigen::Vector3d sum =
+      s.force_N + s.following_N + p.problem.f_N.rowwise().sum() + s.solution.reaction_N.rowwise().sum();
+  EXPECT_LT(sum.norm(), 1e-5 * 3.0);
+}
+
+TEST(RigidBarContact, SoftBodiesAnswerAlikeUnderForcesInProportion) {
+  const auto solved = [](double E_Pa) {
+    ContactProblem p = comparedBlock(5);
+    p.problem.body.E_Pa.assign(p.problem.body.E_Pa.size(), E_Pa);
+    p.force_N = 0.5e-3 * E_Pa;
+    return solveContact(p);
+  };
+  const ContactSolution gel = solved(500), soft = solved(2500), stiff = solved(30e3), stiffer = solved(90e3);
+  ASSERT_TRUE(gel.solution.report.converged() && soft.solution.report.converged());
+  ASSERT_TRUE(stiff.solution.report.converged() && stiffer.solution.report.converged());
+  EXPECT_NEAR(gel.travel_m, soft.travel_m, 1e-6);
+  EXPECT_NEAR(stiff.travel_m, stiffer.travel_m, 1e-6);
+  EXPECT_NEAR(soft.travel_m, stiff.travel_m, 0.06 * stiff.travel_m);  // the barrier's width, and what of it is used
+}
+
+TEST(RigidBarContact, WhatTheBarSpendsIsTheEnergyOfTheBody) {
+  ContactProblem p = comparedBlock(5);
+  p.force_N = 4.0;
+  const ContactSolution s = solveContact(p);
+  ASSERT_TRUE(s.solution.report.converged());
+  double work_J = 0;
+  for (std::size_t i = 1; i + 1 < s.path.size(); ++i)
+    work_J += 0.5 * (s.path[i].force_N + s.path[i - 1].force_N) * (s.path[i].travel_m - s.path[i - 1].travel_m);
+  // The path goes on to the first step beyond the force; the last part of it is left out.
+  const PathStep last = s.path[s.path.size() - 2];
+  work_J += 0.5 * (last.force_N + 4.0) * (s.travel_m - last.travel_m);
+  EXPECT_NEAR(s.solution.energy_J, work_J, 0.05 * work_J);
 }
 
 }  // namespace

@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "mechanics/contact/contact_solver.h"
+
+namespace glisson::mechanics {
+namespace {
+
+using State = ContactSolver::State;
+
+constexpr double farthest_m = 0.2;  ///< of travel
+constexpr double fallen = 0.98;     ///< of the largest force, where no step is possible: the bar slips
+
+struct Path {
+  ContactSolver& solver;
+  State& state;
+  double goal_N, before_m, end_m;  ///< before_m: travel counts from the first force
+  double step = ContactSolver::firstStep_m, last_N = 0, best_N = 0, bestAt_m = 0;
+  State before, reached;
+  bool has = false;  ///< `reached` bears the force; the path goes on to its proof
+  bool extrapolate = false, indefinite = false;
+
+  Path(ContactSolver& s, State& at)
+      : solver(s),
+        state(at),
+        goal_N(s.problem().force_N ? s.options().proof * *s.problem().force_N : 0),
+        before_m(0.5 * s.options().zone_m),
+        end_m(s.problem().travel_m ? *s.problem().travel_m - before_m : std::numeric_limits<double>::infinity()),
+        last_N(s.barForce(at)),
+        best_N(last_N),
+        bestAt_m(at.s),
+        before(at) {
+    solver.out().path.push_back({state.s + before_m, last_N});
+  }
+
+  bool ended(ContactOutcome outcome, bool exceeded) {
+    ContactSolution& out = solver.out();
+    out.outcome = outcome;
+    out.capacity_N = std::max(out.capacity_N, best_N);
+    out.capacityExceeded = exceeded;
+    return outcome == ContactOutcome::Reached;
+  }
+
+  State predicted() const {
+    double target = state.s + step;
+    if (target > end_m - 1e-9) target = end_m;
+    State trial = state;
+    const double factor = extrapolate && state.s > before.s ? (target - state.s) / (state.s - before.s) : 0;
+    for (std::size_t i = 0; factor > 0 && i < trial.u.size(); ++i) trial.u[i] += factor * (state.u[i] - before.u[i]);
+    trial.s = target;
+    return trial;
+  }
+
+  bool converges(State& trial, NewtonRun& run) {
+    ContactEnergy::Value value;
+    if (!solver.energy().evaluate(trial, {}, false, value) || !solver.energy().passes(state, trial)) return false;
+    run = solver.converge(trial, {}, ContactSolver::pathTolerance, 40);
+    indefinite = indefinite || run.indefinite;
+    return run.converged;
+  }
+
+  /// After a step that failed: a verdict, or a shorter step.
+  std::optional<bool> shorten() {
+    step *= 0.6;
+    if (step < 1.5e-3) extrapolate = false;
+    if (step >= ContactSolver::shortestStep_m) return {};
+    // Where not even the first step was possible, nothing is known of what the place bears.
+    const bool gave = solver.out().path.size() > 1 && (indefinite || last_N < fallen * best_N);
+    return ended(has                  ? ContactOutcome::Reached
+                 : best_N > 0 && gave ? ContactOutcome::Slips
+                                      : ContactOutcome::Stopped,
+                 !has && gave);
+  }
+
+  void arrive(State&& trial) {
+    const double force_N = solver.barForce(trial);
+    if (!has) solver.leaveBehind(state);
+    before = std::move(state);
+    state = std::move(trial);
+    extrapolate = true;
+    ContactSolution& out = solver.out();
+    out.path.push_back({state.s + before_m, force_N});
+    out.largestDrop_N = std::max(out.largestDrop_N, last_N - force_N);
+    last_N = force_N;
+    std::ostringstream what;
+    what.precision(3);
+    what << "bar at " << 1e3 * (state.s + before_m) << " mm, " << force_N << " N";
+    const double done = goal_N > 0 ? force_N / goal_N : state.s / solver.problem().travel_m.value_or(0.1);
+    solver.progress().report(0.05 + 0.6 * std::min(1.0, done), what.str());
+    if (force_N > best_N) {
+      best_N = force_N;
+      bestAt_m = state.s;
+    }
+  }
+
+  /// At an equilibrium: whether the path ends here.
+  std::optional<bool> verdict() {
+    if (state.s >= end_m - 1e-9) return ended(ContactOutcome::Reached, last_N < ContactSolver::slipFall * best_N);
+    if (!solver.problem().force_N) return {};
+    if (!has && last_N >= *solver.problem().force_N) {
+      has = true;
+      reached = state;
+    }
+    if (last_N >= goal_N) {
+      state = std::move(reached);
+      return ended(ContactOutcome::Reached, false);
+    }
+    if (last_N < ContactSolver::slipFall * best_N || state.s > bestAt_m + ContactSolver::slipTravel_m) {
+      if (has) state = std::move(reached);
+      return ended(ContactOutcome::Slips, true);
+    }
+    return {};
+  }
+};
+
+}  // namespace
+
+bool followPath(ContactSolver& solver, State& state) {
+  Path path(solver, state);
+  while (state.s < farthest_m) {
+    State trial = path.predicted();
+    NewtonRun run;
+    if (!path.converges(trial, run)) {
+      if (const auto end = path.shorten()) return *end;
+      continue;
+    }
+    path.arrive(std::move(trial));
+    if (const auto end = path.verdict()) return *end;
+    path.step = run.iterations <= 8 ? std::min(1.3 * path.step, ContactSolver::longestStep_m) : path.step;
+    path.indefinite = false;
+  }
+  return path.ended(path.best_N > 0 ? ContactOutcome::Slips : ContactOutcome::Stopped, path.best_N > 0);
+}
+
+}  // namespace glisson::mechanics

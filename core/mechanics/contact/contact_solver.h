@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "mechanics/contact/contact_energy.h"
+#include "mechanics/contact/newton.h"
+
+namespace glisson::mechanics {
+
+/// A contact problem on its way to the answer: what solveContact() is made of.
+class ContactSolver {
+ public:
+  using State = ContactEnergy::State;
+
+  static constexpr double firstStep_m = 4e-3, longestStep_m = 6e-3, shortestStep_m = 1e-4;
+  static constexpr double pathTolerance = 1e-2;
+  static constexpr double slipFall = 0.75;       ///< of the largest force: the bar slips
+  static constexpr double slipTravel_m = 12e-3;  ///< past the largest force without reaching it again
+
+  ContactSolver(const ContactProblem& problem, const ContactOptions& options, const Progress& progress);
+  /// The answer, or what was reached.
+  ContactSolution solve();
+
+  const ContactProblem& problem() const { return problem_; }
+  const ContactOptions& options() const { return options_; }
+  const Progress& progress() const { return progress_; }
+  const ContactEnergy& energy() const { return energy_; }
+  ContactSolution& out() { return out_; }
+  NewtonRun converge(State& state, std::optional<double> force_N, double tolerance, int limit);
+  double barForce(const State& state) const;
+  /// The state is the last but one of the path.
+  void leaveBehind(const State& state) { trail_.push_back(state); }
+  /// A force that an equilibrium bore on the present cells.
+  void met(double force_N);
+  /// Notes what the place bears at most; false.
+  bool slips(double capacity_N);
+
+ private:
+  void useLevel(std::size_t l) { energy_.setLoads(l, loads_[l]); }
+  /// The coarsest cells that can still follow the bar.
+  bool moveBar(State& state);
+  bool meetForceFromTrail(State& state, double tolerance, NewtonRun& run);
+  bool finish(State& state);
+  bool loadInSteps(State& state, double tolerance);
+
+  const ContactProblem& problem_;
+  const ContactOptions& options_;
+  const Progress& progress_;
+  SolidHierarchy hierarchy_;
+  std::vector<std::size_t> kept_;  ///< samples that cells carry
+  ContactEnergy energy_;
+  ContactSolution out_;
+  std::vector<std::vector<double>> loads_;  ///< per level
+  double metOnFinest_ = 0;                  ///< largest force that an equilibrium on the finest cells bore
+  int spent_ = 0;                           ///< iterations on the finest cells
+  double lastResidual_ = 0;                 ///< of the last equilibrium tried
+  std::vector<State> trail_;                ///< of the path up to its end, of the level that is worked on
+};
+
+/// Travel in steps from `state` until force or travel is reached (true), or the force falls or no step is possible. Writes
+/// path, outcome and capacity of solver.out().
+bool followPath(ContactSolver& solver, ContactSolver::State& state);
+
+/// The travel at which the bar bears the force, with the travel prescribed: that stays well posed where the force hardly
+/// rises any more, and where it falls. False where no step is possible or the force has fallen for good (then
+/// solver.out() says that the bar slips).
+bool meetForce(ContactSolver& solver, ContactSolver::State& state, double tolerance, NewtonRun& run);
+
+}  // namespace glisson::mechanics
