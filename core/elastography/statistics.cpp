@@ -59,7 +59,10 @@ void warn(Measurement& m) {
         << " below the confidence, " << m.noConfidence << " without a confidence, " << m.notPositive
         << " not positive, " << m.notFinite << " not finite)";
     m.warnings.push_back(few.str());
-  } else if (m.notPositive + m.notFinite > 0) {
+  } else if (const std::size_t empty = m.notPositive + m.notFinite; empty > 0 && 100 * empty < before) {
+    m.diagnostics.add(DiagnosticCode::FewVoxelsEmpty,
+                      {{"voxels", static_cast<std::int64_t>(empty)}, {"of", static_cast<std::int64_t>(before)}});
+  } else if (empty > 0) {
     std::ostringstream some;
     some << m.notPositive + m.notFinite << " of " << before << " voxels hold no stiffness and do not count ("
          << m.notPositive << " not positive, " << m.notFinite << " not finite)";

@@ -200,7 +200,7 @@ SofaScene sofaScene(const retraction::Body& body, const retraction::Model& model
 
 SofaExport writeSofa(const std::filesystem::path& folder, const retraction::Model& model,
                      const retraction::Setup& asked, const SofaLandmarks& landmarks, const SofaOptions& options) {
-  const retraction::Setup setup = retraction::withPatch(asked);
+  const retraction::Setup setup = retraction::exportable(asked);
   const retraction::Body body(model);
   const retraction::MechanicsScene mechanics = retraction::toMechanics(body, model, setup);
   detail::SofaScene scene = detail::sofaScene(body, model, setup, mechanics, landmarks, options);

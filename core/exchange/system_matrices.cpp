@@ -47,7 +47,7 @@ std::vector<std::filesystem::path> writeSystem(const std::filesystem::path& fold
   if (3 * static_cast<long>(nodes) > maxUnknowns)
     throw BadInput("the matrices of " + std::to_string(3 * static_cast<long>(nodes)) +
                    " unknowns would take gigabytes as text; use larger cells (cell_mm)");
-  const retraction::MechanicsScene scene = retraction::toMechanics(body, model, retraction::withPatch(setup));
+  const retraction::MechanicsScene scene = retraction::toMechanics(body, model, retraction::exportable(setup));
   std::vector<std::filesystem::path> files = writeMatrices(folder, body, setup.model.element);
   for (const auto& file : writeSpringMatrix(folder, body, scene.problem.supports)) files.push_back(file);
   const Eigen::Matrix3d& direction = model.youngs_kPa.grid.direction;

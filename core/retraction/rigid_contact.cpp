@@ -11,6 +11,7 @@
 #include "mechanics/contact/contact_setup.h"
 #include "mechanics/contact/follower_loads.h"
 #include "mechanics/supports.h"
+#include "retraction/ligaments.h"
 #include "retraction/smooth_body.h"
 
 namespace glisson::retraction {
@@ -189,7 +190,21 @@ void addSupports(const Body& body, const Model& model, const Setup& setup, const
   }
 }
 
-/// What only large deformation has: pressures that follow their faces, and springs that press only.
+/// The node at a place of the lattice, or one within three cells of it; −1 where there is none.
+int nodeNear(const mechanics::VoxelMesh& mesh, const Eigen::Vector3i& at) {
+  int best = mesh.nodeAt(at.x(), at.y(), at.z());
+  for (int reach = 1; best < 0 && reach <= 3; ++reach)
+    for (int k = -reach; k <= reach && best < 0; ++k)
+      for (int j = -reach; j <= reach && best < 0; ++j)
+        for (int i = -reach; i <= reach && best < 0; ++i) {
+          const Eigen::Vector3i near = at + Eigen::Vector3i(i, j, k);
+          if ((near.array() >= 0).all() && (near.array() <= mesh.cells().array()).all())
+            best = mesh.nodeAt(near.x(), near.y(), near.z());
+        }
+  return best;
+}
+
+/// What only large deformation has: loads that follow their faces, springs that press only, and ligaments.
 void addFollowing(const Body& body, const Setup& setup, const Eigen::Vector3d& shift_m, mechanics::ContactProblem& p) {
   const mechanics::VoxelMesh& mesh = body.mesh();
   const auto corners = [&](const SurfaceFace& f) {
@@ -204,32 +219,49 @@ void addFollowing(const Body& body, const Setup& setup, const Eigen::Vector3d& s
     });
     return c;
   };
-  for (const LoadSpec& load : setup.loads)
-    if (const auto* pressure = std::get_if<Pressure>(&load); pressure != nullptr && pressure->follows)
+  for (const LoadSpec& load : setup.loads) {
+    const auto* pressure = std::get_if<Pressure>(&load);
+    if (pressure != nullptr && pressure->follows)
       for (const SurfaceFace* f : body.faces(pressure->region))
         p.pressures.push_back({corners(*f), 1e3 * pressure->kPa});
+    const auto* traction = std::get_if<Traction>(&load);
+    if (traction == nullptr || !traction->follows) continue;
+    const Eigen::Vector3d t_Pa = 1e3 * body.vectorToLocal(traction->kPa);
+    for (const SurfaceFace* f : body.faces(traction->region)) {
+      const Eigen::Vector3d n = mechanics::faceNormal(f->face.side);
+      p.pressures.push_back({corners(*f), -t_Pa.dot(n), t_Pa - t_Pa.dot(n) * n});
+    }
+  }
   for (const SupportSpec& s : setup.supports)
     if (s.kind == SupportSpec::Kind::Spring && s.unilateral && s.stiffness_kPa_per_mm > 0)
       for (const SurfaceFace* f : body.faces(s.region))
-        for (const int node : f->nodes)
-          p.bed.push_back({mesh.position_m(node) + shift_m, mechanics::faceNormal(f->face.side),
-                           0.25 * mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm * f->area_m2});
+        for (const int node : f->nodes) {
+          const double k_N_m = 0.25 * mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm * f->area_m2;
+          p.bed.push_back({mesh.position_m(node) + shift_m, mechanics::faceNormal(f->face.side), k_N_m,
+                           s.tangential * k_N_m});
+        }
+  for (const LigamentFibres& ligament : ligamentsOf(body, setup))
+    for (mechanics::Tether t : ligament.fibres) {
+      t.p_m += shift_m;
+      t.anchor_m += shift_m;
+      p.tethers.push_back(t);
+    }
 }
 
 mechanics::RigidBar barOf(const Body& body, const Retractor& r, const Eigen::Vector3d& at_mm,
                           const Eigen::Vector3d& shift_m) {
   const Eigen::Vector3d hoist = r.direction.normalized();
   const Eigen::Vector3d axis = (r.patchAxis() - r.patchAxis().dot(hoist) * hoist).normalized();
-  mechanics::RigidBar bar;
-  bar.radius_m = mmToM * r.diameter_mm / 2;
-  bar.hoist = body.vectorToLocal(hoist);
-  const Eigen::Vector3d along = body.vectorToLocal(axis);
+  const Eigen::Vector3d along = body.vectorToLocal(axis), back = body.vectorToLocal(hoist);
   const Eigen::Vector3d centre = body.toLocal_m(at_mm - behind_mm * hoist) + shift_m;
   const double half = mmToM * r.length_mm / 2;
+  mechanics::RigidBar bar;
   if (r.shape == BarShape::Hook)
-    bar.centreline_m = mechanics::hookCentreline(centre, along, bar.hoist.cross(along), 2 * half, std::numbers::pi / 2);
+    bar = mechanics::hook(centre, along, back.cross(along), 2 * half, std::numbers::pi / 2);
   else
     bar.centreline_m = {centre - half * along, centre + half * along};
+  bar.radius_m = mmToM * r.diameter_mm / 2;
+  bar.hoist = back;
   return bar;
 }
 
@@ -253,6 +285,14 @@ std::optional<Retractor> rigidBarOf(const Setup& setup) {
   return {};
 }
 
+bool wantsRigidBar(const Setup& setup) {
+  try {
+    return rigidBarOf(setup).has_value();
+  } catch (const BadInput&) {
+    return true;
+  }
+}
+
 bool inLargeDeformation(const Setup& setup) {
   return setup.kinematics == Kinematics::Hyperelastic || rigidBarOf(setup).has_value();
 }
@@ -263,6 +303,20 @@ mechanics::ContactProblem withoutBar(const Body& body, const Setup& setup, const
   p.law = setup.law.value_or(mechanics::SolidLaw::Logarithmic);
   addFollowing(body, setup, Eigen::Vector3d::Zero(), p);
   return p;
+}
+
+LargeDeformationAnswer solveWithoutBar(const Body& body, const Setup& setup, const MechanicsScene& scene,
+                                       double tolerance, const Progress& progress) {
+  mechanics::ContactOptions options;
+  options.tolerance = tolerance;
+  mechanics::ContactSolution s = mechanics::solveContact(withoutBar(body, setup, scene), options, progress);
+  LargeDeformationAnswer answer;
+  answer.following_N = body.vectorToLps(s.following_N);
+  const std::vector<LigamentFibres> ligaments = ligamentsOf(body, setup);
+  answer.ligaments = pullsOf(body, ligaments, s.tether_N);
+  answer.diagnostics = estimatesOf(ligaments);
+  answer.solution = std::move(s.solution);
+  return answer;
 }
 
 ContactScene contactScene(const Body& body, const Model& model, const Setup& setup, const MechanicsScene& scene,
@@ -280,8 +334,8 @@ ContactScene contactScene(const Body& body, const Model& model, const Setup& set
   p.problem.f_N = mechanics::NodalField::Zero(3, mesh.nodeCount());
   for (int node = 0; node < body.mesh().nodeCount(); ++node) {
     if (scene.problem.f_N.col(node).isZero(0)) continue;
-    const Eigen::Vector3i at = body.mesh().latticeOf(node) + out.layers;
-    if (const int to = mesh.nodeAt(at.x(), at.y(), at.z()); to >= 0) p.problem.f_N.col(to) += scene.problem.f_N.col(node);
+    if (const int to = nodeNear(mesh, body.mesh().latticeOf(node) + out.layers); to >= 0)
+      p.problem.f_N.col(to) += scene.problem.f_N.col(node);
   }
   addFollowing(body, setup, shift_m, p);
   p.law = setup.kinematics == Kinematics::Linear ? mechanics::SolidLaw::Linear
@@ -337,16 +391,7 @@ void toModelNodes(const Body& body, const ContactScene& scene, mechanics::Soluti
   mechanics::NodalField u = mechanics::NodalField::Zero(3, count), reaction = mechanics::NodalField::Zero(3, count);
   std::vector<char> told(static_cast<std::size_t>(mesh.nodeCount()), 0);
   for (int node = 0; node < count; ++node) {
-    const Eigen::Vector3i at = body.mesh().latticeOf(node) + scene.layers;
-    int best = mesh.nodeAt(at.x(), at.y(), at.z());
-    for (int reach = 1; best < 0 && reach <= 3; ++reach)
-      for (int k = -reach; k <= reach && best < 0; ++k)
-        for (int j = -reach; j <= reach && best < 0; ++j)
-          for (int i = -reach; i <= reach && best < 0; ++i) {
-            const Eigen::Vector3i near = at + Eigen::Vector3i(i, j, k);
-            if ((near.array() >= 0).all() && (near.array() <= mesh.cells().array()).all())
-              best = mesh.nodeAt(near.x(), near.y(), near.z());
-          }
+    const int best = nodeNear(mesh, body.mesh().latticeOf(node) + scene.layers);
     if (best < 0) continue;
     u.col(node) = s.u_m.col(best);
     told[static_cast<std::size_t>(best)] = 1;
@@ -373,6 +418,10 @@ RigidContactAnswer solveRigidContact(const Body& body, const Model& model, const
   RigidContactAnswer answer;
   answer.dofs = static_cast<int>(3 * s.solution.u_m.cols());
   answer.contact = toRetraction(body, contact, s);
+  answer.following_N = body.vectorToLps(s.following_N);
+  const std::vector<LigamentFibres> ligaments = ligamentsOf(body, setup);
+  answer.ligaments = pullsOf(body, ligaments, s.tether_N);
+  answer.diagnostics = estimatesOf(ligaments);
   answer.solution = std::move(s.solution);
   toModelNodes(body, contact, answer.solution);
   return answer;

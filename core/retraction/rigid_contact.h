@@ -13,6 +13,8 @@ namespace glisson::retraction {
 /// The scene's retractor, where it is to be a rigid bar. Throws BadInput where the scene asks for rigid contact and for
 /// something that does not offer it.
 std::optional<Retractor> rigidBarOf(const Setup& setup);
+/// Whether it is to be one, offered or not.
+bool wantsRigidBar(const Setup& setup);
 
 /// The scene as a contact problem: cells weighted with their covered fraction, the smooth surface's samples, springs and
 /// capsule on it, the bar behind its place. A box, and a model without smooth body, is its cells.
@@ -46,9 +48,18 @@ mechanics::ContactProblem withoutBar(const Body& body, const Setup& setup, const
 /// True where the scene is solved by mechanics::solveContact: pressures may follow their faces, springs press only.
 bool inLargeDeformation(const Setup& setup);
 
-/// An answer on the nodes of the model's own cells, and what bar and liver do to each other.
-struct RigidContactAnswer {
+/// An answer on the nodes of the model's own cells.
+struct LargeDeformationAnswer {
   mechanics::Solution solution;
+  Eigen::Vector3d following_N = Eigen::Vector3d::Zero();  ///< sum of the loads that follow their faces, LPS
+  std::vector<LigamentPull> ligaments;
+  Diagnostics diagnostics;
+};
+LargeDeformationAnswer solveWithoutBar(const Body& body, const Setup& setup, const MechanicsScene& scene,
+                                       double tolerance, const Progress& progress);
+
+/// The same with a bar, and what bar and liver do to each other.
+struct RigidContactAnswer : LargeDeformationAnswer {
   RigidContact contact;
   int dofs = 0;
 };

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "base/quantity.h"
 #include "image/volume.h"
 #include "mechanics/contact/cell_kernel.h"
@@ -40,14 +41,30 @@ struct MaskRegion {
 };  ///< what lies in a voxel of the mask (label 0: any)
 using Region = std::variant<FaceRegion, SurfaceRegion, BoxRegion, PlaneRegion, MaskRegion>;
 
+/// Folds of peritoneum that tie the liver to the diaphragm and the abdominal wall.
+enum class LigamentName { Falciform, Coronary, LeftTriangular, RightTriangular, Other };
+struct LigamentSpec {
+  LigamentName name = LigamentName::Other;
+  /// Of the whole ligament along its fibres. Empty: two sheets of peritoneum, each as stiff as the capsule of which it is
+  /// a part (Capsule::tension_N_per_mm), over the width of the region and the length of the fibres.
+  std::optional<double> stiffness_N_per_mm;
+  double length_mm = 0.0;  ///< of its fibres, from the liver to where they spring from
+  double slack_mm = 0.0;   ///< by which they lengthen before they pull
+  std::optional<Eigen::Vector3d> towards;  ///< unit, LPS, to where they spring from; empty: the region's mean outward normal
+  bool twoSided = false;   ///< pushes as well
+  static constexpr double falciformLength_mm = 30.0, otherLength_mm = 15.0;  ///< defaults; our own estimates
+};
+
 struct SupportSpec {
-  enum class Kind { Fixed, Spring } kind = Kind::Fixed;
+  enum class Kind { Fixed, Spring, Ligament } kind = Kind::Fixed;
   Region region;
   std::array<bool, 3> axes = {true, true, true};              ///< Fixed: which components are held
   Eigen::Vector3d displacement_mm = Eigen::Vector3d::Zero();  ///< Fixed: held at this
   double stiffness_kPa_per_mm = 0.0;                          ///< Spring: Winkler foundation
   bool normalOnly = false;                                    ///< Spring: resists along the face normal only
   bool unilateral = false;  ///< Spring: presses along the face normal, does not pull; large deformation only
+  double tangential = 0.0;  ///< unilateral Spring: share of its stiffness that acts along the face, pressed or not
+  LigamentSpec ligament{};  ///< Ligament; large deformation only
 };
 
 struct BodyForce {
@@ -56,6 +73,7 @@ struct BodyForce {
 struct Traction {
   Region region;
   Eigen::Vector3d kPa;
+  bool follows = false;  ///< large deformation: per deformed area, and turns with the material of its faces
 };
 struct Pressure {
   Region region;
@@ -145,5 +163,11 @@ struct Setup {
 /// The same scene with its retractor as a patch of pressure and linear kinematics for auto: for what asks for loads on
 /// nodes (matrices, condensed responses, other programs). A bar that is given its travel takes the liver's weight.
 Setup withPatch(Setup setup);
+
+/// withPatch, and without what no other program's files can say: ligaments are left out, springs that only press pull as
+/// well, loads do not follow their faces.
+Setup exportable(Setup setup);
+/// What of a scene `exportable` changes.
+Diagnostics notExportable(const Setup& setup);
 
 }  // namespace glisson::retraction

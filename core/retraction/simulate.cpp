@@ -31,9 +31,19 @@ struct Answer {
   int frames = 0;
   int steps = 0;
   std::vector<std::string> notes;
+  Diagnostics diagnostics;
   std::optional<RigidContact> contact;
+  Eigen::Vector3d following_N = Eigen::Vector3d::Zero();  ///< LPS
+  std::vector<LigamentPull> ligaments;
   bool useless = false;             ///< the model cannot deform as this body does
   std::vector<std::string> limits;  ///< what the mesh-free model could not give as asked for
+
+  void take(LargeDeformationAnswer large) {
+    solution = std::move(large.solution);
+    following_N = large.following_N;
+    ligaments = std::move(large.ligaments);
+    diagnostics.add(large.diagnostics);
+  }
 };
 
 mechanics::DynamicOptions dynamicOptions(const AnalysisSpec& a) {
@@ -145,12 +155,9 @@ Answer solve(const Model& patient, const Body& body, const MechanicsScene& scene
       a.solution =
           mechanics::solveLargeDeformation(problem, mechanics::LargeDeformationKind::Corotational, options, progress);
     } else {
-      mechanics::ContactOptions contact;
-      contact.tolerance = options.tolerance;
-      a.solution = mechanics::solveContact(withoutBar(body, setup, scene), contact, progress).solution;
+      a.take(solveWithoutBar(body, setup, scene, options.tolerance, progress));
+      a.diagnostics.add(DiagnosticCode::ElementChosen);
     }
-    if (setup.kinematics == Kinematics::Hyperelastic)
-      a.notes.push_back("hyperelastic kinematics use mean-dilatation hexahedra, whatever element the scene names");
   } else if (setup.analysis.dynamic) {
     mechanics::DynamicSolution d = mechanics::solveDynamic(problem, dynamicOptions(setup.analysis), options, progress);
     a.steps = d.trajectory.steps;
@@ -188,6 +195,11 @@ std::vector<Eigen::Vector3d> interpolate(const Body& body, const mechanics::Noda
 std::string slipInWords(const RigidContact& c) {
   std::ostringstream text;
   text.precision(3);
+  if (!(c.asked_N > 0.0)) {
+    text << "the body gives way under the bar: " << c.capacity_N << " N is the most it bore, and after " << c.travel_mm
+         << " mm no further travel is found; choose a place where it is thicker and level across the bar, or a smaller travel";
+    return text.str();
+  }
   text << "the bar slips at " << c.capacity_N << " N after " << c.travel_mm << " mm: the liver does not bear " << c.asked_N
        << " N at this place; choose one where it is thicker and level across the bar, or a smaller force";
   return text.str();
@@ -243,7 +255,9 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
   r.notes = std::move(answer.notes);
   for (std::string& text : s.report.diagnostics.texts(Severity::Warning)) r.notes.push_back(std::move(text));
   r.energy_J = s.energy_J;
-  r.load_N = body.vectorToLps(scene.problem.f_N.rowwise().sum());
+  r.load_N = body.vectorToLps(scene.problem.f_N.rowwise().sum()) + answer.following_N;
+  r.diagnostics = std::move(answer.diagnostics);
+  r.ligaments = std::move(answer.ligaments);
   r.reaction_N = body.vectorToLps(s.reaction_N.rowwise().sum());
   r.u_mm = atCellCentres(body, model.youngs_kPa.grid, s.u_m);
 
@@ -292,9 +306,9 @@ Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen:
     if (!bar->at_mm || !bar->axis) bar = placeBar(model, nullptr, used, progress.part(0.0, 0.3)).bar;
     RigidContactAnswer c = solveRigidContact(body, model, used, scene, *bar, progress);
     Answer answer;
-    answer.solution = std::move(c.solution);
     answer.dofs = c.dofs;
     answer.contact = std::move(c.contact);
+    answer.take(std::move(c));
     return readBack(model, body, scene, used, std::move(answer), probes_mm);
   }
   Setup used = setup;

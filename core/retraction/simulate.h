@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "base/progress.h"
 #include "image/volume.h"
 #include "mechanics/problem.h"
@@ -47,7 +48,7 @@ struct RigidContact {
   double area_mm2 = 0.0, footprint_mm2 = 0.0;  ///< of the surface that touches: as it is, and seen along the hoist
   double pressureMax_kPa = 0.0, penetrationMax_mm = 0.0;
   double smallestJ = 1.0;  ///< least volume ratio of a cell
-  std::vector<Eigen::Vector3d> bar_mm;               ///< centre line at first touch
+  std::vector<Eigen::Vector3d> bar_mm;               ///< centre line at first touch; of a hook in chords
   double barRadius_mm = 0.0;
   Eigen::Vector3d hoist = Eigen::Vector3d::Zero();   ///< unit, LPS
   std::vector<std::array<double, 2>> path;           ///< travel mm, force N
@@ -56,17 +57,25 @@ struct RigidContact {
   std::vector<double> sample_mm2, pressure_kPa;
 };
 
+/// What a ligament does to the liver at the end.
+struct LigamentPull {
+  LigamentName name = LigamentName::Other;
+  double stiffness_N_per_mm = 0.0;
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< on the liver, LPS
+};
+
 /// One simulated retraction, back in mm and the patient frame.
 struct Result {
   image::DisplacementField u_mm;            ///< at cell centres of the model's grid, 0 outside
   mechanics::NodalField nodal_u_m;          ///< 3 × nodes, the grid's own axes, m
   std::vector<Eigen::Vector3d> probe_u_mm;  ///< one per probe, LPS
   std::vector<std::string> notes;           ///< what the model changed, probes that lie outside
+  Diagnostics diagnostics;                  ///< what the model chose by itself
   int dofs = 0;
   int frames = 0;  ///< that were placed; 0 where the model is not mesh-free
   int steps = 0;   ///< time steps; 0 when static
   mechanics::SolveReport solver;
-  Eigen::Vector3d load_N = Eigen::Vector3d::Zero();      ///< sum of applied forces, LPS
+  Eigen::Vector3d load_N = Eigen::Vector3d::Zero();      ///< sum of applied forces, as they are at the end, LPS
   Eigen::Vector3d reaction_N = Eigen::Vector3d::Zero();  ///< sum of support forces, LPS
   double energy_J = 0.0;
   Kinematics kinematics = Kinematics::Linear;  ///< that were solved
@@ -86,6 +95,7 @@ struct Result {
   double contactArea_mm2 = 0.0;                      ///< that bears on the liver, seen along the hoist
   std::vector<int> contactNodes;                     ///< of a patch
   std::optional<RigidContact> contact;               ///< of a rigid bar
+  std::vector<LigamentPull> ligaments;               ///< in the order of the scene's supports
 };
 
 /// Builds the mechanics problem (the one crossing from mm and kPa to SI) and solves it.

@@ -110,17 +110,22 @@ struct LoadBuilder {
   bool corotational;
 
   std::vector<FaceTraction> operator()(const BodyForce&) const { return {}; }
+  /// True where the contact solver lets a load follow its faces.
+  bool following(bool follows) const {
+    if (follows && corotational)
+      throw BadInput("a load that follows its faces is offered for kinematics \"hyperelastic\": choose these, or leave "
+                     "\"follows\" out");
+    return follows && large;
+  }
   std::vector<FaceTraction> operator()(const Traction& load) const {
+    if (following(load.follows)) return {};
     std::vector<FaceTraction> out;
     for (const SurfaceFace* f : body.faces(load.region))
       out.push_back({f->face, body.vectorToLocal(kPaToPa * load.kPa)});
     return out;
   }
   std::vector<FaceTraction> operator()(const Pressure& load) const {
-    if (load.follows && large) return {};  // the contact solver lets it follow
-    if (load.follows && corotational)
-      throw BadInput("a pressure that follows its faces is offered for kinematics \"hyperelastic\": choose these, or leave "
-                     "\"follows\" out");
+    if (following(load.follows)) return {};
     std::vector<FaceTraction> out;
     for (const SurfaceFace* f : body.faces(load.region))
       out.push_back({f->face, -kPaToPa * load.kPa * mechanics::faceNormal(f->face.side)});
@@ -175,19 +180,75 @@ Setup withPatch(Setup setup) {
   return setup;
 }
 
+namespace {
+
+bool isOneSided(const SupportSpec& s) {
+  return s.kind == SupportSpec::Kind::Ligament || (s.kind == SupportSpec::Kind::Spring && s.unilateral);
+}
+
+bool followsFaces(const LoadSpec& load) {
+  const auto* pressure = std::get_if<Pressure>(&load);
+  const auto* traction = std::get_if<Traction>(&load);
+  return (pressure != nullptr && pressure->follows) || (traction != nullptr && traction->follows);
+}
+
+}  // namespace
+
+Setup exportable(Setup setup) {
+  setup = withPatch(std::move(setup));
+  setup.supports.erase(std::remove_if(setup.supports.begin(), setup.supports.end(),
+                                      [](const SupportSpec& s) { return s.kind == SupportSpec::Kind::Ligament; }),
+                       setup.supports.end());
+  for (SupportSpec& s : setup.supports) {
+    s.normalOnly = s.normalOnly || s.unilateral;
+    s.unilateral = false;
+  }
+  for (LoadSpec& load : setup.loads) {
+    if (auto* pressure = std::get_if<Pressure>(&load)) pressure->follows = false;
+    if (auto* traction = std::get_if<Traction>(&load)) traction->follows = false;
+  }
+  return setup;
+}
+
+Diagnostics notExportable(const Setup& setup) {
+  Diagnostics said;
+  if (rigidBarOf(setup)) said.add(DiagnosticCode::ContactNotExported);
+  std::int64_t ligaments = 0, beds = 0;
+  for (const SupportSpec& s : setup.supports)
+    if (isOneSided(s)) ++(s.kind == SupportSpec::Kind::Ligament ? ligaments : beds);
+  if (ligaments + beds > 0)
+    said.add(DiagnosticCode::HoldingNotExported,
+             {{"count", ligaments + beds},
+              {"what", std::string(beds == 0        ? "ligaments"
+                                   : ligaments == 0 ? "springs that only press"
+                                                    : "ligaments and springs that only press")}});
+  const auto following = std::count_if(setup.loads.begin(), setup.loads.end(), followsFaces);
+  if (following > 0) said.add(DiagnosticCode::FollowingNotExported, {{"count", static_cast<std::int64_t>(following)}});
+  return said;
+}
+
 MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& setup) {
   MechanicsScene scene;
   scene.problem.body = body.voxels();
   std::map<int, mechanics::Fixation> fixations;
   std::vector<mechanics::Spring> pressing;  // hold the body as well, but are no springs of the linear problem
   for (const SupportSpec& s : setup.supports) {
-    if (s.unilateral && !inLargeDeformation(setup))
-      throw BadInput("a spring that only presses (\"unilateral\") is offered for kinematics \"hyperelastic\" or a rigid "
-                     "retractor: change that, or let it pull as well");
+    if (isOneSided(s) && !inLargeDeformation(setup))
+      throw BadInput(s.kind == SupportSpec::Kind::Ligament
+                         ? "a ligament, which goes slack and turns, is offered for kinematics \"hyperelastic\" or a rigid "
+                           "retractor: change that, or take a spring instead"
+                         : "a spring that only presses (\"unilateral\") is offered for kinematics \"hyperelastic\" or a "
+                           "rigid retractor: change that, or let it pull as well");
+    if (s.kind == SupportSpec::Kind::Ligament) {
+      // Where it is attached it holds the body; how, the solver of large deformation says.
+      for (const int node : mechanics::nodesOfFaces(body.mesh(), meshFaces(body, s.region)))
+        pressing.push_back({node, Eigen::Matrix3d::Identity()});
+      continue;
+    }
     std::vector<mechanics::Foundation> own;
     if (s.kind == SupportSpec::Kind::Fixed)
       addFixed(body, s, fixations);
-    else if (s.stiffness_kPa_per_mm > 0)
+    else if (s.kind == SupportSpec::Kind::Spring && s.stiffness_kPa_per_mm > 0)
       for (const mechanics::Foundation& f : mechanics::foundations(
                meshFaces(body, s.region), mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm,
                s.normalOnly ? mechanics::SpringDirection::Normal : mechanics::SpringDirection::Every))

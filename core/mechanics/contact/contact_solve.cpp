@@ -154,7 +154,7 @@ bool ContactSolver::loadInSteps(State& state, double tolerance) {
     energy_.setLoads(level, part);
     energy_.setPressureShare(target);
     State trial = state;
-    const NewtonRun run = converge(trial, {}, target < 1 ? std::max(1e-3, tolerance) : tolerance, 60);
+    const NewtonRun run = converge(trial, {}, target < 1 ? std::max(1e-3, tolerance) : tolerance, target < 1 ? 30 : 60);
     out_.solution.report.residual = run.residual;
     if (run.converged) {
       state = std::move(trial);
@@ -168,18 +168,12 @@ bool ContactSolver::loadInSteps(State& state, double tolerance) {
   return true;
 }
 
+/// Loads act from the beginning: they come first, with the bar where it touches.
 bool ContactSolver::moveBar(State& state) {
   state.s = -0.5 * options_.zone_m;
-  const State rest = state;
-  bool good = followPath(*this, state);
-  if (!good && trail_.empty() && (!problem_.pressures.empty() || !loads_[energy_.top()].empty())) {
-    // The bar's first step failed under loads that act from the beginning: they come first, in parts.
-    state = rest;
-    out_.path.clear();
-    out_.capacity_N = 0;
-    good = loadInSteps(state, pathTolerance) && followPath(*this, state);
-  }
-  return good && finish(state);
+  const bool loaded = !problem_.pressures.empty() || !loads_[energy_.top()].empty();
+  if (loaded && !loadInSteps(state, pathTolerance)) return false;
+  return followPath(*this, state) && finish(state);
 }
 
 ContactSolution ContactSolver::solve() {

@@ -39,7 +39,6 @@ class ContactSolver {
 
  private:
   void useLevel(std::size_t l) { energy_.setLoads(l, loads_[l]); }
-  /// The coarsest cells that can still follow the bar.
   bool moveBar(State& state);
   bool meetForceFromTrail(State& state, double tolerance, NewtonRun& run);
   bool finish(State& state);

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double largestStep_m = 0.010;
 constexpr double forcing = 0.1;  ///< of the inner solve
+constexpr int unsymmetricLimit = 120;
 constexpr double armijo = 1e-4;
 constexpr int halvings = 12;
 constexpr double deeperOf = 0.25;  ///< of the barrier's width: what a step may lead a sample deeper beyond it
@@ -43,7 +44,7 @@ struct Minimiser {
     const bool symmetric = positive || energy.hasPotential();
     const TangentSolve solve = symmetric
                                    ? hierarchy.solve(energy.top(), b, step, forcing, goal.innerLimit, positive)
-                                   : hierarchy.solveUnsymmetric(energy.top(), b, step, forcing, goal.innerLimit);
+                                   : hierarchy.solveUnsymmetric(energy.top(), b, step, forcing, unsymmetricLimit);
     run.inner += solve.iterations;
     if (!positive) run.indefinite = solve.outcome == TangentOutcome::Indefinite;
     if (!travels) step.back() = 0;

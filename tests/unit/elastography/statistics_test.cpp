@@ -163,6 +163,19 @@ TEST(Measure, CountsWhatIsLeftOutAndWhy) {
   EXPECT_EQ(measure(map, roi, all).pooled.n, 157u);
 }
 
+TEST(Measure, AFewEmptyVoxelsAreNotedAndNoReasonToDoubt) {
+  StiffnessMap map = noisyMap(2);
+  image::Mask roi(mreGrid());
+  for (int k = 1; k < 3; ++k)
+    for (int j = 4; j < 12; ++j)
+      for (int i = 4; i < 14; ++i) roi.at(i, j, k) = 1;
+  map.values_kPa.at(5, 5, 1) = 0.0F;
+  attachConfidence(map, image::ScalarVolume(mreGrid(), 1.0F));
+  const Measurement m = measure(map, roi);
+  EXPECT_TRUE(m.warnings.empty());
+  EXPECT_TRUE(m.diagnostics.contains(DiagnosticCode::FewVoxelsEmpty));
+}
+
 TEST(Measure, ErosionLeavesTheInnerRegion) {
   const StiffnessMap map = noisyMap(3);
   image::Mask roi(mreGrid());

@@ -139,8 +139,8 @@ TEST(FollowerLoads, OpenFacesConvergeUnderLargePressures) {
     const Eigen::Vector3d sum = s.following_N + s.solution.reaction_N.rowwise().sum();
     EXPECT_LT(sum.norm(), 1e-5 * size_N);
   };
-  // A block on its clamped base, pressed on one side: p/E to .8.
-  for (const double p_Pa : {600.0, 2000.0, 5000.0}) {
+  // A block on its clamped base, pressed on one side: p/E to .7.
+  for (const double p_Pa : {600.0, 2000.0, 4200.0}) {
     ContactProblem p = held(box({16, 6, 10}, 10e-3, 6e3, 0.45),
                             [](const Eigen::Vector3i& at) { return std::array<bool, 3>{at.y() == 0, at.y() == 0, at.y() == 0}; });
     p.pressures = facesOf(p.problem.body, 0, p_Pa);

@@ -78,12 +78,48 @@ TEST(Scene, JsonOfASceneGivesTheSameScene) {
   EXPECT_THAT(once, HasSubstr("voronoi"));
 }
 
+TEST(Scene, ACapsuleIsADefaultWhereABarIsAndElseOnlyWhereItIsAskedFor) {
+  const std::string bar = R"({ "schema": "glisson/scene/1",
+  "geometry": { "kind": "box", "size_mm": [50,50,50], "cell_mm": 10 },
+  "material": { "youngs_kPa": 12 },
+  "supports": [ { "region": {"face":"y-"}, "kind": "fixed" } ],
+  "capsule": true,
+  "loads": [ { "kind": "retractor", "at": [25,50,25], "force": 1, "contact": "patch" } ] })";
+  const Scene asked = parseScene(bar, ".");
+  EXPECT_TRUE(asked.capsuleAsked);
+  EXPECT_TRUE(asked.setup.capsule.has_value());
+  const Scene again = parseScene(toJson(asked), ".");
+  EXPECT_TRUE(again.capsuleAsked && again.setup.capsule.has_value());
+  const Scene plain = parseScene(replaced(bar, "\"capsule\": true,", ""), ".");
+  EXPECT_FALSE(plain.setup.capsule.has_value());
+  EXPECT_FALSE(parseScene(toJson(plain), ".").capsuleAsked);
+}
+
+TEST(Scene, LigamentsAndOneSidedSpringsAreReadAndWritten) {
+  const std::string held = replaced(beam, "\"fixed\" }", R"("fixed" },
+    { "region": {"face":"z+"}, "kind": "ligament", "name": "left-triangular", "slack_mm": 2, "towards": [0,0,2] },
+    { "region": {"face":"z-"}, "kind": "spring", "stiffness_kPa_per_mm": 0.1, "unilateral": true, "tangential": 0.2 })");
+  const Scene s = parseScene(toJson(parseScene(held, ".")), ".");
+  ASSERT_EQ(s.setup.supports.size(), 3u);
+  const retraction::LigamentSpec& l = s.setup.supports[1].ligament;
+  EXPECT_EQ(l.name, retraction::LigamentName::LeftTriangular);
+  EXPECT_FALSE(l.stiffness_N_per_mm.has_value());
+  EXPECT_DOUBLE_EQ(l.length_mm, retraction::LigamentSpec::otherLength_mm);
+  EXPECT_DOUBLE_EQ(l.slack_mm, 2.0);
+  EXPECT_EQ(l.towards.value(), Eigen::Vector3d(0, 0, 1));
+  EXPECT_DOUBLE_EQ(s.setup.supports[2].tangential, 0.2);
+  EXPECT_THAT(messageOf(replaced(held, "\"unilateral\": true, ", "")), HasSubstr("tangential"));
+  EXPECT_THAT(messageOf(replaced(held, "left-triangular", "middle")), HasSubstr("falciform"));
+  EXPECT_THAT(messageOf(replaced(held, "\"slack_mm\": 2", "\"slack_mm\": -2")), HasSubstr("slack_mm"));
+}
+
 TEST(Plan, LeavesOutWhatTheSceneDoesNotNeed) {
   const std::vector<PlanStep> steps = plan(parseScene(beam, "."));
   for (const PlanStep& s : steps) {
     EXPECT_FALSE(s.why.empty()) << s.step;
     if (s.step == "mass-matrix" || s.step == "time-steps" || s.step == "vessels" || s.step == "3d-overlay" ||
-        s.step == "atlas-solve" || s.step == "assembled-stiffness-matrix") {
+        s.step == "atlas-solve" || s.step == "assembled-stiffness-matrix" || s.step == "ligaments" ||
+        s.step == "loads-that-follow") {
       EXPECT_FALSE(s.needed) << s.step;
     }
     if (s.step == "solve" || s.step == "mesh") {
