@@ -1,3 +1,5 @@
+#include <cstdlib>
+#include <filesystem>
 #include <sstream>
 
 #include "base/error.h"
@@ -6,6 +8,44 @@
 #include "verbs.h"
 
 namespace glisson::cli {
+namespace {
+
+/// A folder of its own that goes when it is done with.
+struct Scratch {
+  std::filesystem::path path;
+  explicit Scratch(const std::filesystem::path& beside) {
+    std::error_code failed;
+    std::filesystem::create_directories(beside, failed);
+    std::string name = (beside / ".export-XXXXXX").string();
+    if (failed || mkdtemp(name.data()) == nullptr)
+      throw BadInput("the output folder cannot be written to; choose another with --output");
+    path = name;
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+};
+
+/// --strict: nothing is put into the output folder before it is known that there is no doubt.
+pipeline::Exported exportIfSound(pipeline::ExportRequest request, const Context& context) {
+  const std::filesystem::path output = request.output;
+  const Scratch scratch(output);
+  request.output = scratch.path;
+  pipeline::Exported done = pipeline::exportFiles(request, context.progress());
+  refuseIfStrict(context, done.diagnostics, done.warnings);
+  for (std::filesystem::path& f : done.files) {
+    const std::filesystem::path to = output / std::filesystem::relative(f, scratch.path);
+    std::filesystem::create_directories(to.parent_path());
+    std::filesystem::rename(f, to);
+    f = to;
+  }
+  return done;
+}
+
+}  // namespace
 
 void addExport(CLI::App& app, Context& context) {
   std::string names;
@@ -27,11 +67,11 @@ void addExport(CLI::App& app, Context& context) {
       request->seed = context.seed;
       if (!quantity->empty())
         request->quantity = *quantity == "shear" ? StiffnessQuantity::Shear : StiffnessQuantity::Youngs;
-      const pipeline::Exported done = pipeline::exportFiles(*request, context.progress());
-      if (context.strict && !done.warnings.empty()) {
-        for (const auto& f : done.files) std::filesystem::remove(f);
-        refuseIfStrict(context, {}, done.warnings);
-      }
+      pipeline::Exported done;
+      if (context.strict)
+        done = exportIfSound(*request, context);
+      else
+        done = pipeline::exportFiles(*request, context.progress());
       Json j;
       j["formats"] = request->formats;
       j["files"] = Json::array();
@@ -41,6 +81,7 @@ void addExport(CLI::App& app, Context& context) {
         text << "written " << f.string() << "\n";
       }
       j["warnings"] = done.warnings;
+      j["diagnostics"] = diagnosticsJson(done.diagnostics, done.warnings);
       for (const std::string& w : done.warnings) text << "warning: " << w << "\n";
       context.print(j, text.str());
       return Ok;

@@ -74,8 +74,10 @@ void addRun(CLI::App& app, Context& context) {
       context.print(Json::parse(r.json), summary(r));
       refuseIfStrict(context, r.diagnostics, r.warnings);
       if (!r.primary.solver.converged() || (r.atlas && !r.atlas->solver.converged())) {
-        std::cerr << "glisson-cli: the solve did not converge (" << r.primary.solver.kind << ", residual "
-                  << r.primary.solver.residual << "); its result is marked and not drawn: "
+        const bool ofAtlas = r.primary.solver.converged();
+        const mechanics::SolveReport& failed = ofAtlas ? r.atlas->solver : r.primary.solver;
+        std::cerr << "glisson-cli: the solve " << (ofAtlas ? "with the atlas stiffness " : "") << "did not converge ("
+                  << failed.kind << ", residual " << failed.residual << "); its result is marked and not drawn: "
                   << (slipped(r) ? "the bar slips; choose another place or a smaller force"
                       : r.primary.kinematics != retraction::Kinematics::Linear
                           ? "this load folds the body; lower it, spread it or stiffen the supports"

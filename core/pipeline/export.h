@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "base/progress.h"
 #include "base/quantity.h"
 
@@ -25,6 +26,7 @@ struct ExportRequest {
 struct Exported {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> warnings;
+  Diagnostics diagnostics;  ///< of what a format cannot say
 };
 
 /// A format by the name that the command line uses, and what it gives.

@@ -124,6 +124,7 @@ const RunResult& ExportCase::result() {
   scene.outputs.vessels = scene_.outputs.vessels;
   result_ = run(scene, {}, progress_);
   for (const std::string& w : result_->warnings) warn(w);
+  warn(result_->diagnostics);
   if (!result_->primary.solver.converged())
     throw SolverFailed("the scene's solve did not converge: nothing of it is exported",
                        result_->primary.solver.iterations, result_->primary.solver.residual,
@@ -142,6 +143,12 @@ void ExportCase::note(const std::vector<std::filesystem::path>& files) {
   for (const auto& f : files)
     if (std::find(exported_.files.begin(), exported_.files.end(), f) == exported_.files.end())
       exported_.files.push_back(f);
+}
+
+void ExportCase::warn(const Diagnostics& said) {
+  for (const Diagnostic& d : said)
+    if (!exported_.diagnostics.contains(d.code)) exported_.diagnostics.add(d.code, d.arguments);
+  for (const std::string& text : said.texts(Severity::Warning)) warn(text);
 }
 
 void ExportCase::warn(const std::string& text) {

@@ -93,6 +93,7 @@ void exportVtu(ExportCase& c) {
 void exportMatrices(ExportCase& c) {
   // Assembled of the model as it is solved; the solve itself is not needed, but cells and moduli are.
   c.note(exchange::writeSystem(c.request().output, c.result().model, c.scene().setup));
+  c.warn(retraction::notExportable(c.scene().setup));
 }
 
 void exportCsv(ExportCase& c) {
@@ -154,6 +155,7 @@ void exportSofa(ExportCase& c) {
   const exchange::SofaExport written = exchange::writeSofa(c.request().output, r.model, c.scene().setup, landmarks);
   c.note(written.files);
   for (const std::string& n : written.notes) c.warn(n);
+  c.warn(retraction::notExportable(c.scene().setup));
 }
 
 }  // namespace glisson::pipeline::detail

@@ -2,6 +2,7 @@
 
 #include "pipeline/detail/record.h"
 #include "report/text.h"
+#include "retraction/ligaments.h"
 
 namespace glisson::pipeline::detail {
 namespace {
@@ -32,12 +33,23 @@ std::string supportInWords(const retraction::SupportSpec& s) {
   const std::string where = regionInWords(s.region);
   if (s.kind == retraction::SupportSpec::Kind::Spring)
     return where + " rests on springs of " + number(s.stiffness_kPa_per_mm) + " kPa/mm (Winkler foundation" +
-           (s.normalOnly ? ", along the surface normal only)" : ")");
+           (s.unilateral ? ", pressing only" + (s.tangential > 0 ? ", " + number(s.tangential) + " of it along the surface"
+                                                               : std::string()) + ")"
+            : s.normalOnly ? ", along the surface normal only)" : ")");
+  if (s.kind == retraction::SupportSpec::Kind::Ligament)
+    return where + " hangs on the " + retraction::nameOf(s.ligament.name) + " ligament (fibres of " +
+           number(s.ligament.length_mm) + " mm" +
+           (s.ligament.stiffness_N_per_mm ? ", " + number(*s.ligament.stiffness_N_per_mm) + " N/mm" : std::string()) +
+           (s.ligament.twoSided ? ")" : ", pulling only)");
   std::string axes;
   for (std::size_t a = 0; a < 3; ++a)
     if (s.axes[a]) axes += std::string(axes.empty() ? "" : ", ") + static_cast<char>('x' + a);
   return where + " is held in " + axes +
          (s.displacement_mm.isZero(0) ? "" : " at a displacement of " + inWords(s.displacement_mm) + " mm");
+}
+
+std::string followingInWords(bool follows) {
+  return follows ? " that follows its faces as they turn and grow" : "";
 }
 
 struct LoadInWords {
@@ -46,10 +58,10 @@ struct LoadInWords {
     return "a body force of " + inWords(l.N_per_m3) + " N/m³";
   }
   std::string operator()(const retraction::Traction& l) const {
-    return "a traction of " + inWords(l.kPa) + " kPa on " + regionInWords(l.region);
+    return "a traction of " + inWords(l.kPa) + " kPa on " + regionInWords(l.region) + followingInWords(l.follows);
   }
   std::string operator()(const retraction::Pressure& l) const {
-    return "a pressure of " + number(l.kPa) + " kPa on " + regionInWords(l.region);
+    return "a pressure of " + number(l.kPa) + " kPa on " + regionInWords(l.region) + followingInWords(l.follows);
   }
   std::string operator()(const retraction::Retractor& l) const {
     std::string t = "a retractor bar of " + number(l.diameter_mm) + " mm diameter and " + number(l.length_mm) +

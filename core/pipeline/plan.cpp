@@ -34,12 +34,18 @@ Needs::Needs(const Scene& s) {
   const retraction::Kinematics k = s.setup.kinematics;
   newton = k != retraction::Kinematics::Linear && (k != retraction::Kinematics::Auto || rigidBar);
   condensed = s.setup.condensed;
-  linearBeside = newton && report && !timeSteps;
+  linearBeside = newton && !timeSteps;
   discretisation = !timeSteps;
   compare = s.compare.has_value();
   cellField = pictures || compare || s.outputs.displacementField;
-  for (const retraction::LoadSpec& load : s.setup.loads)
+  for (const retraction::LoadSpec& load : s.setup.loads) {
     retractor = retractor || std::holds_alternative<retraction::Retractor>(load);
+    const auto* pressure = std::get_if<retraction::Pressure>(&load);
+    const auto* traction = std::get_if<retraction::Traction>(&load);
+    followingLoads = followingLoads || (pressure && pressure->follows) || (traction && traction->follows);
+  }
+  for (const retraction::SupportSpec& support : s.setup.supports)
+    ligaments = ligaments || support.kind == retraction::SupportSpec::Kind::Ligament;
 }
 
 }  // namespace detail
@@ -212,6 +218,14 @@ std::vector<PlanStep> plan(const Scene& s) {
       !n.rigidBar        ? "there is no rigid bar that would fold the surface"
       : s.setup.capsule ? "Glisson's capsule carries tension along the surface"
                         : "the scene leaves it out, or the body is no liver");
+  add("ligaments", n.ligaments,
+      n.ligaments ? "the scene says where they are attached: fibres that pull and turn"
+      : n.patient ? "the scene names none: images show neither where they are attached nor where they spring from"
+                  : "the scene names none");
+  add("loads-that-follow", n.followingLoads && n.newton,
+      !n.followingLoads ? "no load follows its faces (\"follows\")"
+      : n.newton        ? "their direction and area are those of the deformed faces, in every iteration"
+                        : "in linear theory faces neither turn nor grow");
   add("assembled-stiffness-matrix", assembled,
       tets        ? "tetrahedra have no common shape: their matrix is put together"
       : n.newton  ? "the tangent changes with every iteration: it is put together anew"
@@ -235,10 +249,11 @@ std::vector<PlanStep> plan(const Scene& s) {
   add("large-deformation", n.newton, n.newton ? "the kinematics are not linear" : "the kinematics are linear",
       10 * solve_s, 2 * solve_MB);
   add("linear-solve", n.linearBeside,
-      n.linearBeside ? "the report shows beside the answer what linear theory would have said"
-      : n.newton     ? "no report is asked for that would show it beside the answer"
+      n.linearBeside ? (n.report ? "the report shows beside the answer what linear theory would have said"
+                                 : "what linear theory misses is said of every answer")
+      : n.newton     ? "the analysis is dynamic"
                      : "the answer is the linear one",
-      (n.compare ? 2.0 : 1.0) * solve_s, solve_MB);
+      (n.compare && n.report ? 2.0 : 1.0) * solve_s, solve_MB);
   add("condensed-response", n.condensed,
       n.condensed ? "the solver is \"condensed\"" : "one load case: a response matrix would not pay");
   add("atlas-solve", n.compare,
@@ -263,7 +278,8 @@ std::vector<PlanStep> plan(const Scene& s) {
       0.01);
   // On cells so large that the tangent, 0.7 kB for each degree of freedom, stays below 42 MB.
   add("linear-gap", !n.newton,
-      n.newton ? "the kinematics are not linear" : "one corotational correction says what linear theory misses",
+      n.newton ? "the kinematics are not linear: \"linear-solve\" says what they add"
+               : "one corotational correction says what linear theory misses",
       (n.compare ? 0.8 : 0.4) * solve_s, std::min(60.0, 0.7e-3 * 3.3 * body.voxels));
   add("strain", n.strain, "every result says whether linear theory can be trusted", 1e-7 * cells);
   add("cell-displacements", n.cellField,

@@ -8,6 +8,7 @@
 #include "base/sha256.h"
 #include "base/version.h"
 #include "mechanics/static_solve.h"
+#include "retraction/ligaments.h"
 
 namespace glisson::pipeline::detail {
 namespace {
@@ -89,6 +90,10 @@ Json resultToJson(const retraction::Result& r, const Scene& scene) {
     j["contact_area_mm2"] = r.contactArea_mm2;
   }
   if (r.contact) j["contact"] = contactToJson(*r.contact);
+  for (const retraction::LigamentPull& l : r.ligaments)
+    j["ligaments"].push_back({{"name", retraction::nameOf(l.name)},
+                              {"stiffness_N_per_mm", l.stiffness_N_per_mm},
+                              {"force_N", toJson(l.force_N)}});
   return j;
 }
 

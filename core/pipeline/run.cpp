@@ -165,7 +165,16 @@ void tellOfPlaces(RunResult& r) {
                     {{"places", static_cast<std::int64_t>(r.placed->tried.size())}, {"percent", 100.0 * best}});
 }
 
-/// What linear theory misses of an answer in large deformation, both with the same bar.
+/// What of the scene makes one doubt before anything is solved.
+void tellOfScene(const Scene& scene, const detail::Needs& needs, RunResult& r) {
+  if (scene.setup.poisson < 0.0) r.diagnostics.add(DiagnosticCode::PoissonNegative, {{"poisson", scene.setup.poisson}});
+  if (scene.capsuleAsked && scene.setup.capsule && !needs.rigidBar)
+    r.diagnostics.add(DiagnosticCode::CapsuleNotUsed,
+                      {{"instead", std::string(needs.retractor ? "the retractor is a patch of pressure"
+                                                               : "the scene has no retractor")}});
+}
+
+/// What linear theory misses of an answer in large deformation, both with the same bar, if there is one.
 retraction::LinearGap gapOf(const RunResult& r, const retraction::Result& linear) {
   const comparison::Difference apart = comparison::compare(r.model, r.primary, linear, r.landmarks_mm);
   retraction::LinearGap gap;
@@ -232,6 +241,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     throw BadInput("the scene has neither supports nor loads; give at least one support and one load");
   const detail::Needs needs(scene);
   RunResult r;
+  tellOfScene(scene, needs, r);
   r.plan = plan(scene);
   requireMemory(r.plan);
   Steps steps(r.plan, progress);
@@ -252,6 +262,8 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     measureOptions.poisson = scene.setup.poisson;
     r.stiffness = elastography::measure(*inputs.stiffness, inputs.roiOnMre->mask, measureOptions);
     for (const std::string& w : r.stiffness->warnings) r.warnings.push_back(w);
+    for (const Diagnostic& d : r.stiffness->diagnostics)
+      if (d.severity() == Severity::Note) r.diagnostics.add(d.code, d.arguments);
   });
 
   image::Mask cells;
@@ -284,13 +296,17 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     setup.kinematics = retraction::kinematicsValid(r.primary) && r.primary.linearTrusted
                            ? retraction::Kinematics::Linear
                                                               : retraction::Kinematics::Hyperelastic;
-    if (setup.kinematics != retraction::Kinematics::Linear && setup.model.kind == retraction::ModelKind::FemHex)
+    if (setup.kinematics != retraction::Kinematics::Linear && setup.model.kind == retraction::ModelKind::FemHex) {
+      const std::optional<retraction::LinearGap> missed = r.primary.linearGap;
       r.primary = retraction::simulate(r.model, setup, scene.outputs.probes_mm, progress);
-    else
+      r.primary.linearGap = missed;
+    } else {
       setup.kinematics = retraction::Kinematics::Linear;
+    }
   }
   r.kinematicsWhy = whyKinematics(scene, r.primary);
   r.warnings.insert(r.warnings.end(), r.primary.notes.begin(), r.primary.notes.end());
+  r.diagnostics.add(r.primary.diagnostics);
   if (scene.setup.model.kind == retraction::ModelKind::Meshfree)
     steps.explain("mesh-free-frames", framesInWords(scene.setup.model.meshfree, r.primary));
   if (scene.compare) {
@@ -328,11 +344,23 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
                          (r.atlas->validity.empty() ? "it is no deformation" : r.atlas->validity.front()) +
                          "; spread the load (\"spread_mm\" of the retractor), or choose another model or larger cells");
 
+  if (!options.discretisation && !needs.report)
+    steps.leaveOut("linear-solve", "a study that measures errors itself does without the estimate");
   steps.run("linear-solve", [&](const Progress& p) {
+    if (!r.primary.solver.converged() && !needs.report) return;
     retraction::Setup inLinearTheory = setup;
     inLinearTheory.kinematics = retraction::Kinematics::Linear;
+    const bool both = scene.compare && needs.report;
     LinearBeside linear;
-    linear.primary = retraction::simulate(r.model, inLinearTheory, scene.outputs.probes_mm, p.part(0.0, r.atlas ? 0.5 : 1.0));
+    try {
+      linear.primary = retraction::simulate(r.model, inLinearTheory, scene.outputs.probes_mm, p.part(0.0, both ? 0.5 : 1.0));
+    } catch (const BadInput& why) {
+      steps.explain("linear-solve", std::string("linear theory does not offer this scene: ") + why.what());
+      return;
+    }
+    if (!linear.primary.solver.converged()) return;
+    if (r.primary.solver.converged()) r.primary.linearGap = gapOf(r, linear.primary);
+    if (!needs.report) return;
     linear.between = comparison::compare(r.model, r.primary, linear.primary, {});
     if (scene.compare) {
       linear.atlas = detail::sameStiffness(r.model, atlasModel)
@@ -340,8 +368,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
                          : retraction::simulate(atlasModel, inLinearTheory, scene.outputs.probes_mm, p.part(0.5, 1.0));
       linear.difference = comparison::compare(r.model, linear.primary, *linear.atlas, {});
     }
-    if (r.primary.contact && linear.primary.solver.converged()) r.primary.linearGap = gapOf(r, linear.primary);
-    if (!linear.primary.solver.converged() || (linear.atlas && !linear.atlas->solver.converged())) return;
+    if (linear.atlas && !linear.atlas->solver.converged()) return;
     r.linear = std::move(linear);
   });
 
@@ -391,6 +418,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
                                                             {vessels.centreline_lps_mm, vessels.edges});
       r.files.insert(r.files.end(), node.files.begin(), node.files.end());
       for (const std::string& n : node.notes) r.warnings.push_back("SOFA: " + n);
+      r.diagnostics.add(retraction::notExportable(scene.setup));
     });
     steps.run("report",
               [&](const Progress&) { writer.report(scene, r, detail::inputDigests(scene), options.palette); });

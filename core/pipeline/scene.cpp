@@ -9,6 +9,7 @@
 #include "pipeline/case_folder.h"
 #include "pipeline/detail/json_reader.h"
 #include "pipeline/detail/setup_reader.h"
+#include "retraction/rigid_contact.h"
 
 namespace glisson::pipeline {
 namespace {
@@ -242,13 +243,15 @@ Scene parseScene(const std::string& text, const std::filesystem::path& folder, c
     const auto* bar = std::get_if<retraction::Retractor>(&l);
     return bar != nullptr && !bar->at_mm;
   });
-  s.setup.capsule = readCapsule(o, s.geometry.kind == GeometrySpec::Kind::Patient   ? retractor
-                                   : s.geometry.kind == GeometrySpec::Kind::Mask && found);
   if (o.has("analysis")) s.setup.analysis = detail::readAnalysis(o.object("analysis"));
   if (o.has("solver")) {
     s.setup.solver = detail::readSolver(o.object("solver"));
     s.setup.condensed = document.root["solver"]["kind"] == "condensed";
   }
+  s.capsuleAsked = o.has("capsule");
+  s.setup.capsule = readCapsule(o, s.geometry.kind == GeometrySpec::Kind::Patient   ? retractor
+                                   : s.geometry.kind == GeometrySpec::Kind::Mask && found);
+  if (!s.capsuleAsked && !retraction::wantsRigidBar(s.setup)) s.setup.capsule.reset();
   if (o.has("compare")) s.compare = readCompare(o.object("compare"));
   s.outputs = readOutputs(o);
   const double seed = o.number("seed", 1);

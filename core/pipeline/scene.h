@@ -57,6 +57,7 @@ struct Scene {
   GeometrySpec geometry;
   MaterialSpec material;
   retraction::Setup setup;
+  bool capsuleAsked = false;  ///< setup.capsule is what the scene says, not a default
   std::optional<CompareSpec> compare;
   OutputSpec outputs;
   std::filesystem::path folder;  ///< relative paths of the file are resolved against this

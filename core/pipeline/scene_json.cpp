@@ -1,6 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/scene.h"
+#include "retraction/ligaments.h"
+#include "retraction/rigid_contact.h"
 
 namespace glisson::pipeline {
 namespace {
@@ -103,6 +105,18 @@ Json toJson(const retraction::SupportSpec& s, const std::filesystem::path& folde
     j["stiffness_kPa_per_mm"] = s.stiffness_kPa_per_mm;
     j["direction"] = s.normalOnly ? "normal" : "isotropic";
     if (s.unilateral) j["unilateral"] = true;
+    if (s.tangential > 0) j["tangential"] = s.tangential;
+    return j;
+  }
+  if (s.kind == retraction::SupportSpec::Kind::Ligament) {
+    const retraction::LigamentSpec& l = s.ligament;
+    j["kind"] = "ligament";
+    j["name"] = retraction::nameOf(l.name);
+    if (l.stiffness_N_per_mm) j["stiffness_N_per_mm"] = *l.stiffness_N_per_mm;
+    j["length_mm"] = l.length_mm;
+    j["slack_mm"] = l.slack_mm;
+    if (l.towards) j["towards"] = toJson(*l.towards);
+    if (l.twoSided) j["two_sided"] = true;
     return j;
   }
   j["kind"] = "fixed";
@@ -120,7 +134,9 @@ struct LoadToJson {
     return {{"kind", "body_force"}, {"N_per_m3", toJson(l.N_per_m3)}};
   }
   Json operator()(const retraction::Traction& l) const {
-    return {{"kind", "traction"}, {"region", std::visit(RegionToJson{folder}, l.region)}, {"kPa", toJson(l.kPa)}};
+    Json j = {{"kind", "traction"}, {"region", std::visit(RegionToJson{folder}, l.region)}, {"kPa", toJson(l.kPa)}};
+    if (l.follows) j["follows"] = true;
+    return j;
   }
   Json operator()(const retraction::Pressure& l) const {
     Json j = {{"kind", "pressure"}, {"region", std::visit(RegionToJson{folder}, l.region)}, {"kPa", l.kPa}};
@@ -207,8 +223,11 @@ std::string toJson(const Scene& scene) {
   for (const auto& load : s.loads) j["loads"].push_back(std::visit(LoadToJson{scene.folder}, load));
   j["model"] = toJson(s.model);
   j["kinematics"] = nameOf(s.kinematics);
-  j["capsule"] = s.capsule ? Json{{"tension_N_per_mm", s.capsule->tension_N_per_mm},
-                               {"form", s.capsule->form == retraction::CapsuleForm::Membrane ? "membrane" : "cells"}} : Json(false);
+  // Where nothing would use it, a capsule that nobody asked for stays a default.
+  if (scene.capsuleAsked || retraction::wantsRigidBar(s))
+    j["capsule"] = s.capsule ? Json{{"tension_N_per_mm", s.capsule->tension_N_per_mm},
+                                    {"form", s.capsule->form == retraction::CapsuleForm::Membrane ? "membrane" : "cells"}}
+                             : Json(false);
   j["analysis"] = toJson(s.analysis);
   j["solver"] = solverToJson(s);
   if (scene.compare)

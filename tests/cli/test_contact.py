@@ -136,6 +136,77 @@ class Contact(unittest.TestCase):
         # What turns with the strip pulls its end back as it bends: the tip goes further along x.
         self.assertLess(following[0], dead[0])
 
+    def test_loads_that_follow_are_in_the_balance(self):
+        block = {**BLOCK, "geometry": {**BLOCK["geometry"], "cell_mm": 10}}
+        pressed = {"kind": "pressure", "region": {"face": "z+"}, "kPa": 0.2, "follows": True}
+        dragged = {"kind": "traction", "region": {"face": "x+"}, "kPa": [0, 0.05, 0], "follows": True}
+        for loads in ([pressed], [BAR, pressed], [BAR, pressed, dragged]):
+            r = self.run_scene({**block, "kinematics": "hyperelastic", "loads": loads})
+            self.assertTrue(r["solver"]["converged"])
+            size = math.hypot(*r["load_N"])
+            self.assertGreater(abs(r["load_N"][2]), 0.5)
+            self.assertLess(math.dist(r["load_N"], [-f for f in r["reaction_N"]]), 1e-5 * size)
+
+    def test_what_linear_theory_misses_is_said_without_a_second_stiffness(self):
+        block = {**BLOCK, "geometry": {**BLOCK["geometry"], "cell_mm": 10}}
+        gap = self.run_scene(block)["linear_gap_mm"]
+        self.assertGreater(gap["at_retractor"], 0.2)
+        self.assertLessEqual(gap["mean"], gap["max"])
+        beam = {"geometry": {"kind": "box", "size_mm": [60, 10, 10], "cell_mm": 5}, "kinematics": "hyperelastic",
+                "material": {"youngs_kPa": 20, "poisson": 0.3}, "supports": [{"region": {"face": "x-"}, "kind": "fixed"}],
+                "loads": [{"kind": "traction", "region": {"face": "x+"}, "kPa": [0, 0, 0.1]}]}
+        self.assertGreater(self.run_scene(beam, "--strict")["linear_gap_mm"]["max"], 0.1)
+
+    def test_strict_refuses_doubts_and_not_the_programs_own_choices(self):
+        block = {**BLOCK, "geometry": {**BLOCK["geometry"], "cell_mm": 10}}
+        self.assertEqual(self.run_scene(block, "--strict")["warnings"], [])
+        for doubtful, code in (({**block, "capsule": True, "loads": [{**BAR, "contact": "patch"}]}, "capsule-not-used"),
+                               ({**block, "material": {"youngs_kPa": 6, "poisson": -0.2}}, "poisson-negative")):
+            r = self.run_scene(doubtful)
+            self.assertIn(code, {d["code"] for d in r["diagnostics"]})
+            cli("run", write_scene(self.folder, doubtful), "--output", self.folder / "out", "--strict", "--quiet", code=3)
+
+    def test_ligaments_hold_what_a_bed_lets_go(self):
+        # A block that lies on its bed and is hoisted by its own weight and more: the ligaments above it bear the rest.
+        block = {**BLOCK, "geometry": {**BLOCK["geometry"], "cell_mm": 10}, "loads": [{**BAR, "force": 2.0}]}
+        bed = {"region": {"face": "y-"}, "kind": "spring", "stiffness_kPa_per_mm": 0.1, "unilateral": True, "tangential": 0.1}
+
+        def ligament(face, **more):
+            return {"kind": "ligament", "name": "falciform", "region": {"face": face}, "stiffness_N_per_mm": 0.5, **more}
+
+        lifted = {**BAR, "at": [80, 0, 50], "direction": [0, 1, 0], "force": 2.0}
+        held = {**block, "loads": [lifted], "supports": [bed, ligament("x-"), ligament("x+"), ligament("y-")]}
+        r = self.run_scene(held)
+        self.assertTrue(r["solver"]["converged"])
+        self.assertEqual([pull["name"] for pull in r["ligaments"]], ["falciform"] * 3)
+        self.assertAlmostEqual(sum(pull["force_N"][1] for pull in r["ligaments"]), -2.0, delta=0.05)
+        self.assertAlmostEqual(r["reaction_N"][1], -2.0, delta=1e-4)
+        plan = {step["step"]: step for step in r["plan"]}
+        self.assertTrue(plan["ligaments"]["needed"])
+        estimated = self.run_scene({**held, "supports": [bed, *({**ligament(f), "stiffness_N_per_mm": 1.0} for f in ("x-", "x+")),
+                                                         {"kind": "ligament", "name": "other", "region": {"face": "y-"}}]})
+        self.assertIn("ligament-estimated", {d["code"] for d in estimated["diagnostics"]})
+        linear = {**held, "kinematics": "linear", "supports": [ligament("x-"), *BLOCK["supports"]],
+                  "loads": [{"kind": "body_force", "N_per_m3": [0, 0, -10]}]}
+        process = cli("run", write_scene(self.folder, linear), "--output", self.folder / "out", "--quiet", code=3)
+        self.assertIn("ligament", process.stderr)
+        self.assertFalse({s["step"]: s for s in self.run_scene(BLOCK)["plan"]}["ligaments"]["needed"])
+
+    def test_exports_say_what_they_leave_out_and_strict_touches_nothing(self):
+        block = {**BLOCK, "geometry": {**BLOCK["geometry"], "cell_mm": 10}}
+        scene, out = write_scene(self.folder, block), self.folder / "export"
+        said = cli_json("export", scene, "--to", "mtx,sofa", "--output", out)
+        self.assertIn("contact-not-exported", {d["code"] for d in said["diagnostics"]})
+        before = {f: f.read_bytes() for f in out.rglob("*") if f.is_file()}
+        (out / "K.mtx").write_text("mine")
+        cli("export", scene, "--to", "mtx", "--output", out, "--strict", "--quiet", code=3)
+        self.assertEqual((out / "K.mtx").read_text(), "mine")
+        self.assertEqual({f for f in out.rglob("*") if f.is_file()}, set(before))
+        patch = write_scene(self.folder, {**block, "kinematics": "linear", "loads": [{**BAR, "contact": "patch"}]}, "patch.json")
+        done = cli_json("export", patch, "--to", "mtx", "--output", out, "--strict")
+        self.assertEqual((out / "K.mtx").read_bytes(), before[out / "K.mtx"])
+        self.assertTrue(all(pathlib.Path(f).parent == out for f in done["files"]))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -38,6 +38,9 @@ BAD = [
     lambda s: s["supports"][0]["region"].update(surface="all"),
     lambda s: s["supports"][1].update(stiffness_kPa_per_mm=-1),
     lambda s: s["supports"][0].update(axes=["w"]),
+    lambda s: s["supports"][1].update(kind="ligament"),
+    lambda s: s["supports"].append({"region": {"face": "z+"}, "kind": "ligament", "name": "cruciate"}),
+    lambda s: s["supports"].append({"region": {"face": "z+"}, "kind": "ligament", "name": "other", "slack_mm": -1}),
     lambda s: s["loads"][0].update(kind="wind"),
     lambda s: s["loads"][1].update(kPa=3),
     lambda s: s["loads"][2].update(length_mm=0),
@@ -62,6 +65,22 @@ class Schema(unittest.TestCase):
         scene = write_scene(self.folder, GOOD)
         cli("run", scene, "--output", self.folder / "out", "--quiet")
         jsonschema.validate(json.loads((self.folder / "out/scene.json").read_text()), self.schema)
+
+    def test_both_take_what_large_deformation_adds(self):
+        scene = {**GOOD, "kinematics": "hyperelastic", "solver": {"kind": "auto"}, "compare": None,
+                 "supports": [*GOOD["supports"],
+                              {"region": {"face": "z-"}, "kind": "spring", "stiffness_kPa_per_mm": 0.1, "unilateral": True,
+                               "tangential": 0.1},
+                              {"region": {"face": "x+"}, "kind": "ligament", "name": "falciform", "stiffness_N_per_mm": 0.1,
+                               "length_mm": 20, "slack_mm": 1, "towards": [1, 0, 1], "two_sided": True}],
+                 "loads": [{"kind": "traction", "region": {"face": "y+"}, "kPa": [0.01, 0.01, 0], "follows": True}]}
+        del scene["compare"]
+        jsonschema.validate(scene, self.schema)
+        cli("run", write_scene(self.folder, scene), "--output", self.folder / "out", "--quiet")
+        written = json.loads((self.folder / "out/scene.json").read_text())
+        jsonschema.validate(written, self.schema)
+        self.assertEqual(written["supports"][3]["two_sided"], True)
+        self.assertEqual(written["loads"][0]["follows"], True)
 
     def test_both_refuse_the_same(self):
         for number, spoil in enumerate(BAD):

@@ -38,6 +38,7 @@ class ExportCase {
   std::filesystem::path file(const std::string& name);
   void note(const std::vector<std::filesystem::path>& files);
   void warn(const std::string& text);
+  void warn(const Diagnostics& said);
   Exported& exported() { return exported_; }
 
   const LoadedRoi& roi();  ///< the region of interest, read once

@@ -19,7 +19,7 @@ struct Needs {
   bool damping = false;
   bool timeSteps = false;
   bool newton = false;        ///< non-linear kinematics
-  bool linearBeside = false;  ///< the linear answer too, where a report of non-linear kinematics is asked for
+  bool linearBeside = false;  ///< the linear answer too: what linear theory misses
   bool condensed = false;
   bool compare = false;
   bool discretisation = false;  ///< error in millimetres from a second grid
@@ -30,6 +30,8 @@ struct Needs {
   bool sofa = false;
   bool retractor = false;
   bool rigidBar = false;  ///< the retractor is a body of its own
+  bool ligaments = false;
+  bool followingLoads = false;  ///< loads that follow their faces
 };
 
 }  // namespace glisson::pipeline::detail

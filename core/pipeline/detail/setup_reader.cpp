@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "retraction/ligaments.h"
 
 namespace glisson::pipeline::detail {
 
@@ -99,10 +100,36 @@ std::optional<double> forceOf(JsonObject& o) {
 
 }  // namespace
 
+namespace {
+
+retraction::LigamentSpec readLigament(JsonObject& o) {
+  using retraction::LigamentName;
+  retraction::LigamentSpec l;
+  const std::string name = o.word("name", {"falciform", "coronary", "left-triangular", "right-triangular", "other"});
+  for (const LigamentName n : {LigamentName::Falciform, LigamentName::Coronary, LigamentName::LeftTriangular,
+                               LigamentName::RightTriangular, LigamentName::Other})
+    if (name == retraction::nameOf(n)) l.name = n;
+  if (o.has("stiffness_N_per_mm"))
+    l.stiffness_N_per_mm = positive(o, "stiffness_N_per_mm", o.number("stiffness_N_per_mm"));
+  l.length_mm = positive(o, "length_mm", o.number("length_mm", l.name == LigamentName::Falciform ? l.falciformLength_mm
+                                                                                                 : l.otherLength_mm));
+  l.slack_mm = o.number("slack_mm", 0.0);
+  if (l.slack_mm < 0) o.fail("slack_mm", "must not be negative: a ligament that pulls at rest has no place here");
+  if (o.has("towards")) l.towards = direction(o, "towards", Eigen::Vector3d::Zero());
+  l.twoSided = o.boolean("two_sided", false);
+  return l;
+}
+
+}  // namespace
+
 retraction::SupportSpec readSupport(JsonObject o, const std::filesystem::path& folder) {
   retraction::SupportSpec s;
   s.region = readRegion(o.object("region"), folder);
-  if (o.word("kind", {"fixed", "spring"}) == "fixed") {
+  const std::string kind = o.word("kind", {"fixed", "spring", "ligament"});
+  if (kind == "ligament") {
+    s.kind = retraction::SupportSpec::Kind::Ligament;
+    s.ligament = readLigament(o);
+  } else if (kind == "fixed") {
     s.kind = retraction::SupportSpec::Kind::Fixed;
     if (o.has("axes")) {
       s.axes = {false, false, false};
@@ -121,6 +148,10 @@ retraction::SupportSpec readSupport(JsonObject o, const std::filesystem::path& f
     s.stiffness_kPa_per_mm = o.number("stiffness_kPa_per_mm");
     if (s.stiffness_kPa_per_mm < 0) o.fail("stiffness_kPa_per_mm", "must not be negative");
     s.unilateral = o.boolean("unilateral", false);
+    s.tangential = o.number("tangential", 0.0);
+    if (s.tangential < 0) o.fail("tangential", "must not be negative: it is a share of the spring's stiffness");
+    if (s.tangential > 0 && !s.unilateral)
+      o.fail("tangential", "is offered for springs that only press (\"unilateral\"); others have \"direction\"");
     s.normalOnly = o.word("direction", {"isotropic", "normal"}, "isotropic") == "normal";
   }
   o.finish();
@@ -133,9 +164,7 @@ retraction::LoadSpec readLoad(JsonObject o, const std::filesystem::path& folder)
   if (kind == "body_force") {
     load = retraction::BodyForce{o.vector3("N_per_m3")};
   } else if (kind == "traction") {
-    if (o.boolean("follows", false))
-      o.fail("follows", "is offered for pressures; a traction keeps its direction: leave it out");
-    load = retraction::Traction{readRegion(o.object("region"), folder), o.vector3("kPa")};
+    load = retraction::Traction{readRegion(o.object("region"), folder), o.vector3("kPa"), o.boolean("follows", false)};
   } else if (kind == "pressure") {
     load = retraction::Pressure{readRegion(o.object("region"), folder), o.number("kPa"), o.boolean("follows", false)};
   } else {
