@@ -65,6 +65,8 @@ void addRender(CLI::App& app, Context& context) {
       // Slices alone need no OpenGL, so it is not started for them.
       std::vector<std::filesystem::path> files;
       if (o.cameras.empty() || !o.slices.empty()) files = pipeline::drawSlices(data, o, folder);
+      if (o.slices.empty() && o.cameras.empty())
+        for (const auto& f : pipeline::drawCharts(data, o, folder)) files.push_back(f);
       if (o.slices.empty() || !o.cameras.empty())
         for (const auto& f : pipeline::draw3D(data, o, folder)) files.push_back(f);
       Json j;

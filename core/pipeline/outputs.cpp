@@ -64,7 +64,7 @@ render::RetractionScene retractionScene(const Scene& scene, const Inputs& inputs
   p.liverSurface = anatomy::liverSurface(cells);
   p.vesselSurface = vessels.surface;
   p.retractorPoint_lps_mm = r.primary.retractorPoint_mm;
-  if (r.primary.contact) p.retractorTravel_mm = r.primary.contact->travel_mm;
+  p.bar = drawnBar(r, p.liverSurface);
   for (const retraction::LoadSpec& load : scene.setup.loads)
     if (const auto* bar = std::get_if<retraction::Retractor>(&load)) {
       p.retractorAxis = r.placed ? *r.placed->bar.axis : bar->patchAxis();
@@ -156,6 +156,10 @@ void Writer::pictureFile(const PictureData& data) {
 
 void Writer::sliceOverlays(const PictureData& data, render::Palette palette) {
   for (const auto& file : drawSlices(data, {.palette = palette}, folder_)) files_.push_back(file);
+}
+
+void Writer::charts(const PictureData& data) {
+  for (const auto& file : drawCharts(data, {}, folder_)) files_.push_back(file);
 }
 
 void Writer::overlays3D(const PictureData& data, render::Palette palette) {

@@ -101,6 +101,14 @@ class Body {
       throw BadInput("a triangle names a vertex that is not there");
     return m;
   }
+  template <typename Matrix>
+  void putAll(const Matrix& m) {
+    put(m.data(), static_cast<std::size_t>(m.size()) * sizeof(typename Matrix::Scalar));
+  }
+  template <typename Matrix>
+  void takeAll(Matrix& m) {
+    take(m.data(), static_cast<std::size_t>(m.size()) * sizeof(typename Matrix::Scalar));
+  }
   const std::string& bytes() const { return bytes_; }
   bool used() const { return at_ == bytes_.size(); }
 
@@ -113,6 +121,62 @@ Json sizesOf(const anatomy::TriangleMesh& m) {
   return {{"vertices", m.vertices_lps_mm.cols()}, {"triangles", m.triangles.cols()}};
 }
 
+Json toJson(const render::BarContact& c) {
+  return {{"travel_mm", c.travel_mm},   {"force_N", c.force_N},
+          {"resultant_N", c.resultant_N},
+          {"area_mm2", c.area_mm2},     {"capacity_N", c.capacity_N},
+          {"capacity_exceeded", c.capacityExceeded}, {"slipped", c.slipped}, {"path", c.path}};
+}
+
+Json toJson(const render::RigidBar& bar) {
+  Json line = Json::array();
+  for (const Eigen::Vector3d& p : bar.centreline_lps_mm) line.push_back(toJson(p));
+  Json j = {{"centreline_lps_mm", line},
+            {"asked_N", bar.asked_N},
+            {"surface", sizesOf(bar.surface)},
+            {"mre", toJson(bar.mre)}};
+  if (bar.atlas) j["atlas"] = toJson(*bar.atlas);
+  return j;
+}
+
+/// Surface, then displacement and pressure of either contact.
+void put(const render::RigidBar& bar, Body& body) {
+  body.put(bar.surface);
+  for (const render::BarContact* c : {&bar.mre, bar.atlas ? &*bar.atlas : nullptr}) {
+    if (c == nullptr) continue;
+    body.putAll(c->u_mm);
+    body.putAll(c->pressure_kPa);
+  }
+}
+
+render::BarContact contactOf(const Json& j, Eigen::Index vertices, Body& body) {
+  render::BarContact c;
+  c.travel_mm = j.at("travel_mm").get<double>();
+  c.force_N = j.at("force_N").get<double>();
+  c.resultant_N = j.at("resultant_N").get<double>();
+  c.area_mm2 = j.at("area_mm2").get<double>();
+  c.capacity_N = j.at("capacity_N").get<double>();
+  c.capacityExceeded = j.at("capacity_exceeded").get<bool>();
+  c.slipped = j.at("slipped").get<bool>();
+  c.path = j.at("path").get<std::vector<std::array<double, 2>>>();
+  c.u_mm.resize(3, vertices);
+  c.pressure_kPa.resize(vertices);
+  body.takeAll(c.u_mm);
+  body.takeAll(c.pressure_kPa);
+  return c;
+}
+
+render::RigidBar barOf(const Json& j, Body& body) {
+  render::RigidBar bar;
+  for (const Json& p : j.at("centreline_lps_mm")) bar.centreline_lps_mm.push_back(fromJson<Eigen::Vector3d>(p));
+  if (bar.centreline_lps_mm.size() < 2) throw BadInput("its bar has no length");
+  bar.asked_N = j.at("asked_N").get<double>();
+  bar.surface = body.mesh(j.at("surface"));
+  bar.mre = contactOf(j.at("mre"), bar.surface.vertices_lps_mm.cols(), body);
+  if (j.contains("atlas")) bar.atlas = contactOf(j["atlas"], bar.surface.vertices_lps_mm.cols(), body);
+  return bar;
+}
+
 PictureData parsed(const Json& j, Body body) {
   PictureData data;
   render::RetractionScene& s = data.scene;
@@ -122,10 +186,10 @@ PictureData parsed(const Json& j, Body body) {
   s.u_atlas_mm = body.volume<Eigen::Vector3f>(gridOf(j.at("u_atlas")));
   s.liverSurface = body.mesh(j.at("liver_surface"));
   s.vesselSurface = body.mesh(j.at("vessel_surface"));
+  if (j.contains("bar")) s.bar = barOf(j["bar"], body);
   if (!body.used()) throw BadInput("it holds more than it says");
   const Json& r = j.at("retractor");
   if (r.contains("point_lps_mm")) s.retractorPoint_lps_mm = fromJson<Eigen::Vector3d>(r["point_lps_mm"]);
-  if (r.contains("travel_mm")) s.retractorTravel_mm = r["travel_mm"].get<double>();
   s.retractorAxis = fromJson<Eigen::Vector3d>(r.at("axis"));
   s.retractorDirection = fromJson<Eigen::Vector3d>(r.at("direction"));
   s.retractorDiameter_mm = r.at("diameter_mm").get<double>();
@@ -149,8 +213,9 @@ void writePictureFile(const std::filesystem::path& file, const PictureData& data
   body.put(s.u_atlas_mm);
   body.put(s.liverSurface);
   body.put(s.vesselSurface);
+  if (s.bar) put(*s.bar, body);
   Json j;
-  j["schema"] = "glisson/pictures/1";
+  j["schema"] = "glisson/pictures/2";
   j["mri"] = toJson(s.mri.grid);
   j["liver"] = toJson(s.liver.grid);
   j["u_mre"] = toJson(s.u_mre_mm.grid);
@@ -162,7 +227,7 @@ void writePictureFile(const std::filesystem::path& file, const PictureData& data
                     {"diameter_mm", s.retractorDiameter_mm},
                     {"length_mm", s.retractorLength_mm}};
   if (s.retractorPoint_lps_mm) j["retractor"]["point_lps_mm"] = toJson(*s.retractorPoint_lps_mm);
-  if (s.retractorTravel_mm) j["retractor"]["travel_mm"] = *s.retractorTravel_mm;
+  if (s.bar) j["bar"] = toJson(*s.bar);
   j["clinically_significant_mm"] = s.clinicallySignificant_mm;
   j["caption"] = s.caption;
   j["mark"] = s.mark;
@@ -201,7 +266,7 @@ PictureData readPictureFile(const std::filesystem::path& file) {
   try {
     if (!in) throw BadInput("it ends too early");
     const Json j = Json::parse(header);
-    if (j.at("schema") != "glisson/pictures/1") throw BadInput("it is of another version");
+    if (j.at("schema") != "glisson/pictures/2") throw BadInput("it is of another version");
     if (j.at("bytes") != bytes.size() || j.at("sha256") != sha256(bytes.data(), bytes.size()))
       throw BadInput("its content is not what was written");
     return parsed(j, Body(std::move(bytes)));

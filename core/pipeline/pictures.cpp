@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "base/error.h"
+#include "render/colour_map.h"
 #include "render/maps.h"
 
 namespace glisson::pipeline {
@@ -121,6 +123,54 @@ std::vector<std::filesystem::path> drawSlices(const PictureData& data, const Pic
   return files;
 }
 
+namespace {
+
+/// The path of a bar, where it ends on the answer's own cells, and the largest force where it fell beyond it.
+void addPath(const render::BarContact& c, const std::string& name, render::Rgb colour, render::XyChart& chart) {
+  render::XyChart::Series path{.name = name, .markers = false, .colour = colour};
+  for (const auto& [travel_mm, force_N] : c.path) {
+    path.x.push_back(travel_mm);
+    path.y.push_back(force_N);
+  }
+  chart.series.push_back(std::move(path));
+  chart.series.push_back({.name = name + (c.slipped ? ", slips" : ", end"),
+                          .x = {c.travel_mm},
+                          .y = {c.force_N},
+                          .joined = false,
+                          .colour = colour});
+  if (!c.capacityExceeded && !c.slipped) return;
+  char label[64];
+  std::snprintf(label, sizeof label, "capacity, %s: %.3g N", name.c_str(), c.capacity_N);
+  chart.lines.push_back({c.capacity_N, label, render::colours::magenta});
+}
+
+}  // namespace
+
+render::XyChart forceChart(const render::RigidBar& bar) {
+  constexpr render::Rgb blue{0, 114, 178}, red{213, 94, 0};  // told apart by colour-blind readers too
+  render::XyChart chart;
+  chart.title = "Force of the bar against its travel";
+  chart.x = {.title = "Travel from first touch (mm)", .low = 0.0};
+  chart.y = {.title = "Force on the liver (N)", .low = 0.0};
+  addPath(bar.mre, "MRE", blue, chart);
+  if (bar.atlas) addPath(*bar.atlas, "atlas", red, chart);
+  if (bar.asked_N > 0.0) {
+    char label[48];
+    std::snprintf(label, sizeof label, "asked for: %.3g N", bar.asked_N);
+    chart.lines.push_back({bar.asked_N, label, render::colours::orange});
+  }
+  chart.caption = "Lines: on the coarse cells on which the way is followed. Points: the answers, on their own cells.";
+  return chart;
+}
+
+std::vector<std::filesystem::path> drawCharts(const PictureData& data, const PictureOptions& options,
+                                              const std::filesystem::path& folder) {
+  if (!data.scene.bar || data.scene.bar->mre.path.empty()) return {};
+  const std::filesystem::path file = folder / "force-travel.png";
+  render::writePng(file, render::draw(forceChart(*data.scene.bar)), options.dpi);
+  return {file};
+}
+
 std::vector<std::filesystem::path> draw3D(const PictureData& data, const PictureOptions& options,
                                           const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
@@ -129,14 +179,30 @@ std::vector<std::filesystem::path> draw3D(const PictureData& data, const Picture
   o.palette = options.palette;
   o.width = options.width;
   o.height = options.height;
-  const std::vector<NamedCamera> usual = {{"oblique", render::View3D::Oblique, {}},
-                                          {"anterior", render::View3D::Anterior, {}}};
-  for (const NamedCamera& camera : options.cameras.empty() ? usual : options.cameras) {
+  const auto draw = [&](const std::string& name) {
+    const render::Picture picture = render::overlay3D(data.scene, o);
+    files.push_back(folder / (name + ".png"));
+    render::writePng(files.back(), picture, options.dpi);
+  };
+  const bool usual = options.cameras.empty();
+  const std::vector<NamedCamera> usualCameras = {{"oblique", render::View3D::Oblique, {}},
+                                                 {"anterior", render::View3D::Anterior, {}}};
+  for (const NamedCamera& camera : usual ? usualCameras : options.cameras) {
     o.view = camera.view;
     o.camera = camera.camera;
-    const render::Picture picture = render::overlay3D(data.scene, o);
-    files.push_back(folder / ("overlay-3d-" + camera.name + ".png"));
-    render::writePng(files.back(), picture, options.dpi);
+    draw("overlay-3d-" + camera.name);
+  }
+  if (!data.scene.bar) return files;
+  const std::vector<NamedCamera> behind = {{"", render::View3D::Posterior, render::barCamera}};
+  for (const NamedCamera& camera : usual ? behind : options.cameras) {
+    o.view = camera.view;
+    o.camera = camera.camera;
+    const std::string name = camera.name.empty() ? std::string() : "-" + camera.name;
+    o.shown = render::Shown3D::PressureMre;
+    draw("contact-pressure-mre" + name);
+    if (!data.scene.bar->atlas) continue;
+    o.shown = render::Shown3D::PressureAtlas;
+    draw("contact-pressure-atlas" + name);
   }
   return files;
 }

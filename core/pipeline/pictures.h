@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/picture_file.h"
+#include "render/charts.h"
 #include "render/overlay.h"
 
 namespace glisson::pipeline {
@@ -39,7 +40,15 @@ struct PictureOptions {
 std::vector<std::filesystem::path> drawSlices(const PictureData& data, const PictureOptions& options,
                                               const std::filesystem::path& folder);
 
-/// The same in 3-D. Throws RenderUnavailable.
+/// Force of a rigid bar against its travel under either stiffness, with what was asked for and how much the place bears.
+render::XyChart forceChart(const render::RigidBar& bar);
+
+/// The chart of a rigid bar, whether the scene may be drawn or not: a bar that slips shows there how far it came. Nothing
+/// without such a bar.
+std::vector<std::filesystem::path> drawCharts(const PictureData& data, const PictureOptions& options,
+                                              const std::filesystem::path& folder);
+
+/// The same as drawSlices in 3-D: both answers, and the contact pressure of a rigid bar on each. Throws RenderUnavailable.
 std::vector<std::filesystem::path> draw3D(const PictureData& data, const PictureOptions& options,
                                           const std::filesystem::path& folder);
 

@@ -23,9 +23,25 @@ std::string inWords(const Eigen::Vector3d& v) {
   return part(v.x()) + ", " + part(v.y()) + ", " + part(v.z());
 }
 
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+/// What the bar and the liver of one stiffness do to each other.
+void barRows(const std::string& who, const retraction::RigidContact& c, Rows& rows) {
+  rows.emplace_back("Bar, " + who, "travels " + number(c.travel_mm, 3) + " mm, bears " + number(c.force_N.norm(), 3) +
+                                       " N on " + number(c.area_mm2, 3) + " mm² (" + number(c.footprint_mm2, 3) +
+                                       " mm² seen along the hoist)");
+  rows.emplace_back("Largest contact pressure, " + who, number(c.pressureMax_kPa, 3) + " kPa");
+  if (c.slipped)
+    rows.emplace_back("Capacity, " + who, number(c.capacity_N, 3) + " N: the bar slips");
+  else if (c.capacityExceeded)
+    rows.emplace_back("Capacity, " + who, number(c.capacity_N, 3) + " N, met on the way");
+}
+
 void results(Page& page, const RunResult& r) {
   page.heading("Result");
-  std::vector<std::pair<std::string, std::string>> rows;
+  Rows rows;
+  for (const Diagnostic& d : r.diagnostics)
+    if (d.code == DiagnosticCode::DifferenceWithheld) rows.emplace_back("Difference", "withheld: " + d.text());
   if (r.difference) {
     const comparison::Difference& d = *r.difference;
     rows.emplace_back("Difference over the liver, mean", number(d.mean_mm) + " mm");
@@ -48,13 +64,9 @@ void results(Page& page, const RunResult& r) {
       rows.emplace_back("Vessel landmarks 5 mm or more apart", number(100 * d.vesselFractionBeyond, 3) + " %");
     }
   }
-  if (r.primary.contact) {
-    const retraction::RigidContact& c = *r.primary.contact;
-    rows.emplace_back("Bar", number(c.force_N.norm(), 3) + " N, after " + number(c.travel_mm, 3) + " mm, over " +
-                                 number(c.footprint_mm2, 3) + " mm² seen along the hoist" +
-                                 (c.slipped ? "; then it slips" : ""));
-    rows.emplace_back("Largest contact pressure", number(c.pressureMax_kPa, 3) + " kPa");
-  }
+  for (const auto& [who, result] : {std::pair("measured", &r.primary), std::pair("textbook", r.atlas ? &*r.atlas : nullptr)})
+    if (result != nullptr && result->contact) barRows(who, *result->contact, rows);
+  rows.emplace_back("Kinematics", nameOf(r.primary.kinematics) + ": " + r.kinematicsWhy);
   const Motion motion = motionOf(r.model, r.primary);
   rows.emplace_back("Displacement, mean", number(motion.mean_mm) + " mm");
   rows.emplace_back("Displacement, largest", number(motion.max_mm) + " mm");
@@ -162,6 +174,12 @@ void kinematics(Page& page, const RunResult& r) {
 std::string captionOf(const std::string& name, render::Palette palette) {
   const bool usual = palette == render::Palette::RedBlue;
   const std::string textbook = usual ? "red" : "orange", both = usual ? "purple" : "white";
+  if (name == "force-travel.png")
+    return "Force of the bar on the liver against its travel, measured and textbook stiffness, with the force asked for and "
+           "the capacity of the place where it was met";
+  if (name.rfind("contact-pressure", 0) == 0)
+    return std::string("Contact pressure on the retracted liver, seen from behind and below through the bar: ") +
+           (name.rfind("contact-pressure-mre", 0) == 0 ? "measured" : "textbook") + " stiffness";
   if (name == "difference-map.png") return "Distance between the two predictions, mm";
   if (name.rfind("overlay-3d", 0) == 0)
     return "Vessels where the measured stiffness puts them (blue) and where the textbook stiffness does (" + textbook +

@@ -404,7 +404,10 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     if (needs.pictures) {
       const PictureData data = writer.pictureData(r);
       steps.run("picture-data", [&](const Progress&) { writer.pictureFile(data); });
-      steps.run("slice-overlay", [&](const Progress&) { writer.sliceOverlays(data, options.palette); });
+      steps.run("slice-overlay", [&](const Progress&) {
+        writer.sliceOverlays(data, options.palette);
+        writer.charts(data);
+      });
       try {
         steps.run("3d-overlay", [&](const Progress&) { writer.overlays3D(data, options.palette); });
       } catch (const RenderUnavailable& e) {

@@ -53,6 +53,7 @@ void writeAgain(const RunResult& result, const WriteAgain& where, std::vector<fs
       });
       progress.report(0.1, "slices");
       writer.sliceOverlays(data, where.palette);
+      writer.charts(data);
       note();
       progress.report(0.4, "3-D");
       if (solid) writer.overlays3D(data, where.palette);

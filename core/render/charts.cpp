@@ -190,7 +190,7 @@ void paintChart(Painter& paint, const XyChart& chart, const ChartSize& size) {
   }
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
     const XyChart::Series& series = chart.series[s];
-    const Rgb colour = seriesColours[s % seriesColours.size()];
+    const Rgb colour = series.colour.value_or(seriesColours[s % seriesColours.size()]);
     const auto marker = [&](const Point& p) {  // shape beside colour
       const double r = 0.38 * f;
       if (s % 4 == 0)

@@ -56,6 +56,7 @@ struct XyChart {
     bool joined = true;
     bool markers = true;
     bool dashed = false;
+    std::optional<Rgb> colour{};  ///< else the next of those that are told apart
   };
   std::string title{};
   Axis x{}, y{};

@@ -12,6 +12,7 @@
 #include "image/volume.h"
 #include "render/backend.h"
 #include "render/picture.h"
+#include "render/rigid_bar.h"
 
 class vtkRenderer;  // shown by pointer only: no VTK header here
 
@@ -33,8 +34,9 @@ struct RetractionScene {
   std::optional<Eigen::Vector3d> retractorPoint_lps_mm;            ///< centre of the contact at rest
   Eigen::Vector3d retractorAxis = Eigen::Vector3d::UnitX();        ///< along the bar, LPS
   Eigen::Vector3d retractorDirection = -Eigen::Vector3d::UnitY();  ///< of the hoist, LPS
-  /// Of a rigid bar, along the hoist: it is drawn where it ends; empty: the bar goes with the tissue at its point.
-  std::optional<double> retractorTravel_mm;
+  /// A bar that is a body of its own, drawn where it ends under either stiffness; empty: the bar goes with the tissue at
+  /// its point.
+  std::optional<RigidBar> bar;
   double retractorDiameter_mm = 10.0;
   double retractorLength_mm = 80.0;
   double clinicallySignificant_mm = 5.0;
@@ -99,7 +101,15 @@ struct Camera3D {
   double elevation_deg = 0.0;
 };
 
+/// What of a retraction a 3-D picture shows: liver and vessels of both answers, or the contact pressure of a rigid bar on
+/// the surface of one.
+enum class Shown3D { Answers, PressureMre, PressureAtlas };
+
+/// From behind and below, a little from the right: where a bar that hoists towards anterior touches the liver.
+inline constexpr Camera3D barCamera{205.0, -28.0};
+
 struct SceneOptions3D {
+  Shown3D shown = Shown3D::Answers;  ///< pressure: BadArgument where the scene has no rigid bar with that answer
   Palette palette = Palette::RedBlue;
   View3D view = View3D::Oblique;
   std::optional<Camera3D> camera{};  ///< instead of view
@@ -113,7 +123,9 @@ struct SceneOptions3D {
 };
 
 /// Fills a renderer (on screen or off) with the 3-D overlay: liver at rest (faint), vessels deformed by MRE (blue) and
-/// by atlas (red), retractor bar, millimetre grid, scale, legend, research-use line. Clears what was in it.
+/// by atlas (red), retractor bar, millimetre grid, scale, legend, research-use line. A rigid bar is shown where it first
+/// touches and where it ends under either stiffness, with the way between and its length. Or the deformed liver with the
+/// contact pressure on it and its scale in kPa. Clears what was in it.
 void populate3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options = {});
 
 /// VTK draws the text of all its windows with one renderer that is not safe from several threads: hold this while a

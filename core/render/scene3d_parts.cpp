@@ -36,6 +36,10 @@ Eigen::Vector3d unit(Rgb c) {
   return Eigen::Vector3d(c.r, c.g, c.b) / 255.0;
 }
 
+Eigen::Vector3d still(const Eigen::Vector3d& p) {
+  return p;
+}
+
 vtkSmartPointer<vtkPolyData> asPolyData(const anatomy::TriangleMesh& mesh, const Motion& motion) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -75,12 +79,23 @@ vtkSmartPointer<vtkActor> actorOf(vtkPolyData* poly) {
 }  // namespace
 
 vtkSmartPointer<vtkActor> solidSurface(const anatomy::TriangleMesh& mesh, const Motion& motion, const Paint& paint) {
-  const vtkSmartPointer<vtkPolyData> poly = withNormals(asPolyData(mesh, motion));
+  anatomy::TriangleMesh moved = mesh;
+  std::vector<Rgb> colours;
+  colours.reserve(static_cast<std::size_t>(mesh.vertices_lps_mm.cols()));
+  for (Eigen::Index n = 0; n < mesh.vertices_lps_mm.cols(); ++n) {
+    moved.vertices_lps_mm.col(n) = motion(mesh.vertices_lps_mm.col(n));
+    colours.push_back(paint(mesh.vertices_lps_mm.col(n)));
+  }
+  return colouredSurface(moved, colours);
+}
+
+vtkSmartPointer<vtkActor> colouredSurface(const anatomy::TriangleMesh& mesh, const std::vector<Rgb>& colours) {
+  const vtkSmartPointer<vtkPolyData> poly = withNormals(asPolyData(mesh, still));
   vtkNew<vtkUnsignedCharArray> colour;
   colour->SetNumberOfComponents(3);
   colour->SetNumberOfTuples(mesh.vertices_lps_mm.cols());
   for (Eigen::Index n = 0; n < mesh.vertices_lps_mm.cols(); ++n) {
-    const Rgb c = paint(mesh.vertices_lps_mm.col(n));
+    const Rgb c = colours[static_cast<std::size_t>(n)];
     const unsigned char bytes[3] = {c.r, c.g, c.b};
     colour->SetTypedTuple(n, bytes);
   }
@@ -117,33 +132,8 @@ vtkSmartPointer<vtkActor> glassSurface(const anatomy::TriangleMesh& mesh, const 
   return actor;
 }
 
-vtkSmartPointer<vtkActor> steelBar(const Eigen::Vector3d& centre_lps, const Eigen::Vector3d& axis, double length_mm,
-                                   double diameter_mm) {
-  // A surface of revolution: half circle, straight flank, half circle.
-  constexpr int around = 48, cap = 12;
-  const double radius = 0.5 * diameter_mm, half = std::max(0.0, 0.5 * length_mm - radius);
-  const Eigen::Vector3d e3 = axis.normalized(), e1 = e3.unitOrthogonal(), e2 = e3.cross(e1);
-  anatomy::TriangleMesh mesh;
-  constexpr int rings = 2 * (cap + 1);
-  mesh.vertices_lps_mm.resize(3, rings * around);
-  mesh.triangles.resize(3, 2 * (rings - 1) * around);
-  Eigen::Index column = 0;
-  for (int s = 0; s < rings; ++s) {
-    const bool second = s > cap;
-    const double theta = 1.5707963267948966 * (second ? s - cap - 1 : s) / cap;  // pole to equator, equator to pole
-    const double along = second ? half + radius * std::sin(theta) : -half - radius * std::cos(theta);
-    const double r = radius * (second ? std::cos(theta) : std::sin(theta));
-    for (int n = 0; n < around; ++n) {
-      const double phi = 2.0 * 3.141592653589793 * n / around;
-      mesh.vertices_lps_mm.col(s * around + n) =
-          centre_lps + along * e3 + r * (std::cos(phi) * e1 + std::sin(phi) * e2);
-      if (s + 1 == rings) continue;
-      const int a = s * around + n, b = s * around + (n + 1) % around;
-      mesh.triangles.col(column++) = Eigen::Vector3i(a, b, a + around);
-      mesh.triangles.col(column++) = Eigen::Vector3i(b, b + around, a + around);
-    }
-  }
-  vtkSmartPointer<vtkActor> actor = actorOf(withNormals(asPolyData(mesh, [](const Eigen::Vector3d& p) { return p; })));
+vtkSmartPointer<vtkActor> steel(const anatomy::TriangleMesh& mesh) {
+  vtkSmartPointer<vtkActor> actor = actorOf(withNormals(asPolyData(mesh, still)));
   vtkProperty* p = actor->GetProperty();
   p->SetInterpolationToPhong();
   p->SetColor(0.72, 0.75, 0.79);

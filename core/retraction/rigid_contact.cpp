@@ -265,21 +265,39 @@ mechanics::RigidBar barOf(const Body& body, const Retractor& r, const Eigen::Vec
   return bar;
 }
 
+/// What is offered in place of what refuses.
+const char* offeredFor(RigidRefusal refusal) {
+  switch (refusal) {
+    case RigidRefusal::Model:
+      return "the model \"fem-hex\"";
+    case RigidRefusal::TimeSteps:
+      return "the static analysis";
+    case RigidRefusal::Condensed:
+      return "solvers other than \"condensed\"";
+    case RigidRefusal::Corotational:
+      break;
+  }
+  return "kinematics \"hyperelastic\", \"linear\" or \"auto\"";
+}
+
 }  // namespace
 
+std::optional<RigidRefusal> rigidRefusal(const Setup& setup) {
+  if (setup.model.kind != ModelKind::FemHex) return RigidRefusal::Model;
+  if (setup.analysis.dynamic) return RigidRefusal::TimeSteps;
+  if (setup.condensed) return RigidRefusal::Condensed;
+  if (setup.kinematics == Kinematics::Corotational) return RigidRefusal::Corotational;
+  return {};
+}
+
 std::optional<Retractor> rigidBarOf(const Setup& setup) {
+  const std::optional<RigidRefusal> refusal = rigidRefusal(setup);
   for (const LoadSpec& load : setup.loads) {
     const auto* r = std::get_if<Retractor>(&load);
     if (r == nullptr || r->contact == ContactKind::Patch) continue;
-    const char* refused = setup.model.kind != ModelKind::FemHex ? "the model \"fem-hex\""
-                          : setup.analysis.dynamic              ? "the static analysis"
-                          : setup.condensed                     ? "solvers other than \"condensed\""
-                          : setup.kinematics == Kinematics::Corotational
-                              ? "kinematics \"hyperelastic\", \"linear\" or \"auto\""
-                              : nullptr;
-    if (refused == nullptr) return *r;
+    if (!refusal) return *r;
     if (r->contact == ContactKind::Rigid || r->travel_mm || r->shape == BarShape::Hook)
-      throw BadInput(std::string("a rigid retractor is offered for ") + refused +
+      throw BadInput(std::string("a rigid retractor is offered for ") + offeredFor(*refusal) +
                      " only: change that, or ask for \"contact\": \"patch\" with a force");
   }
   return {};

@@ -10,8 +10,15 @@
 
 namespace glisson::retraction {
 
+/// What of a scene does not offer a rigid bar: its model (other than voxel hexahedra), time steps, the condensed solver,
+/// corotational kinematics.
+enum class RigidRefusal { Model, TimeSteps, Condensed, Corotational };
+
+/// The first of them that the setup has; nothing where a rigid bar is offered.
+std::optional<RigidRefusal> rigidRefusal(const Setup& setup);
+
 /// The scene's retractor, where it is to be a rigid bar. Throws BadInput where the scene asks for rigid contact and for
-/// something that does not offer it.
+/// something that does not offer it (rigidRefusal).
 std::optional<Retractor> rigidBarOf(const Setup& setup);
 /// Whether it is to be one, offered or not.
 bool wantsRigidBar(const Setup& setup);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,9 @@ namespace glisson::pipeline::detail {
 render::RetractionScene retractionScene(const Scene& scene, const Inputs& inputs, const image::Mask& cells,
                                         const RunResult& result, const anatomy::VesselModel& vessels);
 
+/// What the pictures show of a rigid bar; nothing without one. liver: the surface where the body has no smooth one.
+std::optional<render::RigidBar> drawnBar(const RunResult& result, const anatomy::TriangleMesh& liver);
+
 /// Writes the files of one run into a folder, each written beside and then renamed; notes what was written.
 class Writer {
  public:
@@ -28,6 +32,7 @@ class Writer {
   PictureData pictureData(const RunResult& r) const;
   void pictureFile(const PictureData& data);
   void sliceOverlays(const PictureData& data, render::Palette palette);
+  void charts(const PictureData& data);
   void overlays3D(const PictureData& data, render::Palette palette);
   /// inputs: name and SHA-256 of each input, for the manifest.
   /// palette: of the pictures, which the report names.

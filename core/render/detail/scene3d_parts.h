@@ -26,14 +26,16 @@ using Paint = std::function<Rgb(const Eigen::Vector3d&)>;
 /// A smooth opaque surface, moved and coloured per vertex.
 vtkSmartPointer<vtkActor> solidSurface(const anatomy::TriangleMesh& mesh, const Motion& motion, const Paint& paint);
 
+/// A smooth opaque surface with a colour per vertex.
+vtkSmartPointer<vtkActor> colouredSurface(const anatomy::TriangleMesh& mesh, const std::vector<Rgb>& colours);
+
 /// A faint glass-like surface: clear where it faces the eye, stronger towards its rim, whatever the camera.
 /// opacity: face and rim, 0..1.
 vtkSmartPointer<vtkActor> glassSurface(const anatomy::TriangleMesh& mesh, const Motion& motion, Rgb colour,
                                        double faceOpacity, double rimOpacity);
 
-/// A steel bar with round ends.
-vtkSmartPointer<vtkActor> steelBar(const Eigen::Vector3d& centre_lps, const Eigen::Vector3d& axis, double length_mm,
-                                   double diameter_mm);
+/// A surface of steel: the bar.
+vtkSmartPointer<vtkActor> steel(const anatomy::TriangleMesh& mesh);
 
 /// Lines of a millimetre grid on a box face. axis: 0..2, the face's normal; at_mm: its position.
 vtkSmartPointer<vtkActor> gridLines(const Eigen::AlignedBox3d& box, int axis, double at_mm, double spacing_mm,

@@ -68,6 +68,18 @@ PictureData sample() {
   s.retractorPoint_lps_mm = Vector3d(0.1, 0.2, 1.0 / 3.0);
   s.retractorAxis = Vector3d(0.6, 0.8, 0.0);
   s.retractorDiameter_mm = 10.1;
+  render::RigidBar& bar = s.bar.emplace();
+  bar.centreline_lps_mm = {Vector3d(0.1, 0.2, 0.3), Vector3d(1.0 / 3.0, 0.2, 80.0)};
+  bar.asked_N = 14.7;
+  bar.surface = s.vesselSurface;
+  bar.mre.travel_mm = 1.0 / 7.0;
+  bar.mre.resultant_N = 14.5;
+  bar.mre.path = {{0.0, 0.0}, {1.0 / 7.0, 14.5}};
+  bar.mre.u_mm = Eigen::Matrix3Xf::Constant(3, 3, 1.0F / 3.0F);
+  bar.mre.pressure_kPa = Eigen::VectorXf::LinSpaced(3, 0.0F, 7.7F);
+  bar.atlas = bar.mre;
+  bar.atlas->slipped = bar.atlas->capacityExceeded = true;
+  bar.atlas->pressure_kPa[1] = 0.1F;
   s.caption = "mean 0.7 mm, ν = 0.45";
   s.mark = "outside \"linear\" theory";
   data.vessel_lps_mm = Vector3d(1e-30, -2.0 / 3.0, 5.0);
@@ -103,6 +115,15 @@ TEST_F(PictureFile, givesBackEveryBit) {
   EXPECT_EQ(a.retractorDirection, b.retractorDirection);
   EXPECT_EQ(a.retractorDiameter_mm, b.retractorDiameter_mm);
   EXPECT_EQ(a.retractorLength_mm, b.retractorLength_mm);
+  ASSERT_TRUE(b.bar && b.bar->atlas);
+  EXPECT_EQ(a.bar->centreline_lps_mm, b.bar->centreline_lps_mm);
+  EXPECT_EQ(a.bar->surface.triangles, b.bar->surface.triangles);
+  EXPECT_EQ(a.bar->mre.path, b.bar->mre.path);
+  EXPECT_EQ(a.bar->mre.u_mm, b.bar->mre.u_mm);
+  EXPECT_EQ(a.bar->mre.pressure_kPa, b.bar->mre.pressure_kPa);
+  EXPECT_EQ(a.bar->atlas->pressure_kPa, b.bar->atlas->pressure_kPa);
+  EXPECT_EQ(a.bar->atlas->travel_mm, b.bar->atlas->travel_mm);
+  EXPECT_TRUE(b.bar->atlas->slipped && !b.bar->mre.slipped);
   EXPECT_EQ(a.caption, b.caption);
   EXPECT_EQ(a.mark, b.mark);
   EXPECT_EQ(a.valid, b.valid);
@@ -117,11 +138,13 @@ TEST_F(PictureFile, whatIsNotThereStaysAway) {
   PictureData data = sample();
   data.vessel_lps_mm.reset();
   data.scene.retractorPoint_lps_mm.reset();
+  data.scene.bar.reset();
   data.scene.valid = false;
   writePictureFile(file(), data);
   const PictureData is = readPictureFile(file());
   EXPECT_FALSE(is.vessel_lps_mm);
   EXPECT_FALSE(is.scene.retractorPoint_lps_mm);
+  EXPECT_FALSE(is.scene.bar);
   EXPECT_FALSE(is.scene.valid);
 }
 

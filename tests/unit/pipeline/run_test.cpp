@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -159,6 +160,49 @@ TEST(Run, SceneWithoutSupportOrLoadIsRefused) {
     "material":{"youngs_kPa":12}})",
                              ".");
   EXPECT_THROW(run(s, {}), BadInput);
+}
+
+/// A block under a bar: soft as measured, stiffer in the atlas.
+Scene blockUnderABar() {
+  return parseScene(R"({ "schema": "glisson/scene/1",
+    "geometry": { "kind": "box", "size_mm": [100, 60, 60], "cell_mm": 7.5 },
+    "material": { "shear_kPa": 2, "poisson": 0.45 },
+    "supports": [ { "region": {"face":"y-"}, "kind": "fixed" } ],
+    "loads": [ { "kind": "retractor", "diameter_mm": 12, "length_mm": 40, "at": [50, 60, 30], "axis": [1, 0, 0],
+                 "direction": [0, -1, 0], "contact": "rigid", "force": 4 } ],
+    "compare": { "against": "atlas", "shear_kPa": 4 }, "outputs": ["overlay"] })",
+                    ".");
+}
+
+TEST(RigidBar, IsDrawnInContactWithBothBodiesAndPassesThroughNeither) {
+  RunOptions options;
+  options.discretisation = false;
+  const RunResult r = run(blockUnderABar(), options);
+  ASSERT_TRUE(r.picture && r.picture->bar && r.picture->bar->atlas);
+  const render::RigidBar& bar = *r.picture->bar;
+  EXPECT_EQ(bar.asked_N, 4.0);
+  EXPECT_EQ(bar.mre.travel_mm, r.primary.contact->travel_mm);
+  EXPECT_GT(bar.mre.travel_mm, bar.atlas->travel_mm + 1.0);
+  for (const render::BarContact* c : {&bar.mre, &*bar.atlas}) {
+    EXPECT_NEAR(c->force_N, 4.0, 0.01);
+    EXPECT_GT(c->path.size(), 2U);
+    const Eigen::Matrix3Xd at = render::movedSurface(bar, *c, 1.0).vertices_lps_mm;
+    const Eigen::Vector3d way = c->travel_mm * r.picture->retractorDirection.normalized();
+    const Eigen::Vector3d a = bar.centreline_lps_mm.front() + way, b = bar.centreline_lps_mm.back() + way;
+    double nearest = 1e9;
+    int pressed = 0;
+    for (Eigen::Index n = 0; n < at.cols(); ++n) {
+      const double s = std::clamp((at.col(n) - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+      const double gap = (at.col(n) - a - s * (b - a)).norm() - 6.0;
+      nearest = std::min(nearest, gap);
+      if (!(c->pressure_kPa[n] > 0.0F)) continue;
+      ++pressed;
+      EXPECT_LT(gap, 4.0) << "pressure where nothing touches";
+    }
+    EXPECT_GT(nearest, 0.0);
+    EXPECT_LT(nearest, 1.0);
+    EXPECT_GT(pressed, 10);
+  }
 }
 
 }  // namespace
