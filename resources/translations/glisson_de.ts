@@ -205,6 +205,50 @@
             <source>%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 of them at 5 mm or more</source>
             <translation>%1 Landmarken: im Mittel %2, 95. Perzentil %3, größte %4; %5 davon bei 5 mm oder mehr</translation>
         </message>
+        <message>
+            <source>Contact</source>
+            <translation>Kontakt</translation>
+        </message>
+        <message>
+            <source>Both answers</source>
+            <translation>Beide Antworten</translation>
+        </message>
+        <message>
+            <source>Contact pressure, MRE</source>
+            <translation>Kontaktdruck, MRE</translation>
+        </message>
+        <message>
+            <source>Contact pressure, atlas</source>
+            <translation>Kontaktdruck, Atlas</translation>
+        </message>
+        <message>
+            <source>3-D shows</source>
+            <translation>3-D zeigt</translation>
+        </message>
+        <message>
+            <source>Force against travel</source>
+            <translation>Kraft über dem Weg</translation>
+        </message>
+        <message>
+            <source>Liver and vessels of both answers, or the contact pressure on one</source>
+            <translation>Leber und Gefäße beider Antworten, oder der Kontaktdruck auf einer</translation>
+        </message>
+        <message>
+            <source>Contact pressure is known after a run with a rigid bar.</source>
+            <translation>Der Kontaktdruck ist nach einer Rechnung mit starrem Bügel bekannt.</translation>
+        </message>
+        <message>
+            <source>After a run with a rigid bar: its force against its travel.</source>
+            <translation>Nach einer Rechnung mit starrem Bügel: seine Kraft über seinem Weg.</translation>
+        </message>
+        <message>
+            <source>No difference is given: see Contact.</source>
+            <translation>Kein Unterschied wird angegeben: siehe Kontakt.</translation>
+        </message>
+        <message>
+            <source>No warning: the large deformation converged.</source>
+            <translation>Keine Warnung: Die große Verformung ist konvergiert.</translation>
+        </message>
     </context>
     <context>
         <name>glisson::panels::ImageLayers</name>
@@ -1741,6 +1785,18 @@
             <source>size of what is held</source>
             <translation>Größe des Halts</translation>
         </message>
+        <message>
+            <source> (proposed from the liver&apos;s shape; the run proves that it bears)</source>
+            <translation> (nach der Form der Leber vorgeschlagen; dass die Stelle trägt, zeigt die Rechnung)</translation>
+        </message>
+        <message>
+            <source> (where the run has laid it)</source>
+            <translation> (wohin die Rechnung ihn gelegt hat)</translation>
+        </message>
+        <message>
+            <source>It is drawn straight; the run bends it.</source>
+            <translation>Er ist gerade gezeichnet; die Rechnung biegt ihn.</translation>
+        </message>
     </context>
     <context>
         <name>glisson::panels::RetractPage</name>
@@ -1759,66 +1815,6 @@
         <message>
             <source>Retraction</source>
             <translation>Retraktion</translation>
-        </message>
-        <message>
-            <source>Nathanson retractor</source>
-            <translation>Nathanson-Retraktor</translation>
-        </message>
-        <message>
-            <source>Diameter of the bar</source>
-            <translation>Durchmesser des Bügels</translation>
-        </message>
-        <message>
-            <source>Diameter</source>
-            <translation>Durchmesser</translation>
-        </message>
-        <message>
-            <source>Length of the bar that bears</source>
-            <translation>Tragende Länge des Bügels</translation>
-        </message>
-        <message>
-            <source>Length</source>
-            <translation>Länge</translation>
-        </message>
-        <message>
-            <source>Tissue wraps round the bar: how far its pressure reaches beyond it; 0 is a bare bar</source>
-            <translation>Gewebe legt sich um den Bügel: wie weit sein Druck über ihn hinausreicht; 0 ist ein blanker Bügel</translation>
-        </message>
-        <message>
-            <source>Wrap</source>
-            <translation>Umschlingung</translation>
-        </message>
-        <message>
-            <source>The liver's weight</source>
-            <translation>Gewicht der Leber</translation>
-        </message>
-        <message>
-            <source>Given force</source>
-            <translation>Gegebene Kraft</translation>
-        </message>
-        <message>
-            <source>Hoist</source>
-            <translation>Zug</translation>
-        </message>
-        <message>
-            <source>Hoisting force, towards anterior in the transverse plane</source>
-            <translation>Zugkraft nach vorn in der Transversalebene</translation>
-        </message>
-        <message>
-            <source>Force</source>
-            <translation>Kraft</translation>
-        </message>
-        <message>
-            <source>Abdomen</source>
-            <translation>Bauchraum</translation>
-        </message>
-        <message>
-            <source>Elastic resistance per area of the posterior and superior surface (Winkler foundation)</source>
-            <translation>Elastischer Widerstand je Fläche der hinteren und oberen Oberfläche (Winkler-Bettung)</translation>
-        </message>
-        <message>
-            <source>Resistance</source>
-            <translation>Widerstand</translation>
         </message>
         <message>
             <source>Solution</source>
@@ -1887,8 +1883,12 @@ Größte Dehnung %7 %, Drehung %8°</translation>
             <translation>Zeigt die Leber in Ruhe: den Stab legen, seinen Zug drehen, die Leber halten, in 3-D oder auf einer Schicht</translation>
         </message>
         <message>
-            <source>The same load for MRE and atlas.</source>
-            <translation>Dieselbe Last für MRE und Atlas.</translation>
+            <source>Straight from first touch to the end, not the course of the bar.</source>
+            <translation>Geradewegs von der ersten Berührung zum Ende, nicht der Verlauf des Bügels.</translation>
+        </message>
+        <message>
+            <source>The large deformation converged.</source>
+            <translation>Die große Verformung ist konvergiert.</translation>
         </message>
     </context>
     <context>
@@ -3115,6 +3115,268 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>, %1 min left</source>
             <translation>, noch %1 min</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::ContactTable</name>
+        <message>
+            <source>slips</source>
+            <translation>rutscht ab</translation>
+        </message>
+        <message>
+            <source>past its largest force</source>
+            <translation>jenseits der Höchstkraft</translation>
+        </message>
+        <message>
+            <source>bears</source>
+            <translation>trägt</translation>
+        </message>
+        <message>
+            <source>not met</source>
+            <translation>nicht erreicht</translation>
+        </message>
+        <message>
+            <source>corotational</source>
+            <translation>korotationell</translation>
+        </message>
+        <message>
+            <source>hyperelastic</source>
+            <translation>hyperelastisch</translation>
+        </message>
+        <message>
+            <source>linear</source>
+            <translation>linear</translation>
+        </message>
+        <message>
+            <source>Contact of bar and liver</source>
+            <translation>Kontakt von Bügel und Leber</translation>
+        </message>
+        <message>
+            <source>Bar</source>
+            <translation>Bügel</translation>
+        </message>
+        <message>
+            <source>MRE</source>
+            <translation>MRE</translation>
+        </message>
+        <message>
+            <source>Atlas</source>
+            <translation>Atlas</translation>
+        </message>
+        <message>
+            <source>Not run yet.</source>
+            <translation>Noch nicht gerechnet.</translation>
+        </message>
+        <message>
+            <source>Travel</source>
+            <translation>Weg</translation>
+        </message>
+        <message>
+            <source>Area</source>
+            <translation>Fläche</translation>
+        </message>
+        <message>
+            <source>Pressure</source>
+            <translation>Druck</translation>
+        </message>
+        <message>
+            <source>Capacity</source>
+            <translation>Tragkraft</translation>
+        </message>
+        <message>
+            <source>Place</source>
+            <translation>Stelle</translation>
+        </message>
+        <message>
+            <source>The bar is a spread patch here: a pressure on %1 cm² at rest.</source>
+            <translation>Der Bügel ist hier ein verteilter Druck auf %1 cm² in Ruhe.</translation>
+        </message>
+        <message>
+            <source>Kinematics: %1 (%2).</source>
+            <translation>Kinematik: %1 (%2).</translation>
+        </message>
+        <message>
+            <source>With the atlas stiffness the bar travels %1 mm further.</source>
+            <translation>Mit der Atlas-Steifigkeit geht der Bügel %1 mm weiter.</translation>
+        </message>
+        <message>
+            <source>With the measured stiffness the bar travels %1 mm further.</source>
+            <translation>Mit der gemessenen Steifigkeit geht der Bügel %1 mm weiter.</translation>
+        </message>
+        <message>
+            <source>Hoist</source>
+            <translation>Zug</translation>
+        </message>
+        <message>
+            <source>Resultant</source>
+            <translation>Resultierende</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::RetractorForm</name>
+        <message>
+            <source>A rigid bar is offered for voxel FEM only: choose it on the Model page.</source>
+            <translation>Einen starren Bügel gibt es nur für Voxel-FEM: auf der Seite Modell wählen.</translation>
+        </message>
+        <message>
+            <source>A rigid bar is offered at rest only: leave out the time steps on the Model page.</source>
+            <translation>Einen starren Bügel gibt es nur in Ruhe: auf der Seite Modell die Zeitschritte weglassen.</translation>
+        </message>
+        <message>
+            <source>A condensed response has no rigid bar: choose another solver on the Model page.</source>
+            <translation>Eine kondensierte Antwort hat keinen starren Bügel: auf der Seite Modell einen anderen Löser wählen.</translation>
+        </message>
+        <message>
+            <source>A rigid bar is offered for automatic, hyperelastic or linear deformation: choose one on the Model page.</source>
+            <translation>Einen starren Bügel gibt es für automatische, hyperelastische oder lineare Verformung: auf der Seite Modell eine wählen.</translation>
+        </message>
+        <message>
+            <source>Nathanson retractor</source>
+            <translation>Nathanson-Retraktor</translation>
+        </message>
+        <message>
+            <source>The same for MRE and atlas.</source>
+            <translation>Gleich für MRE und Atlas.</translation>
+        </message>
+        <message>
+            <source>Liver and abdomen</source>
+            <translation>Leber und Bauch</translation>
+        </message>
+        <message>
+            <source>Rigid bar</source>
+            <translation>Starrer Bügel</translation>
+        </message>
+        <message>
+            <source>Spread patch (as published)</source>
+            <translation>Verteilter Druck (wie veröffentlicht)</translation>
+        </message>
+        <message>
+            <source>Contact</source>
+            <translation>Kontakt</translation>
+        </message>
+        <message>
+            <source>Straight</source>
+            <translation>Gerade</translation>
+        </message>
+        <message>
+            <source>Hook</source>
+            <translation>Haken</translation>
+        </message>
+        <message>
+            <source>Shape</source>
+            <translation>Form</translation>
+        </message>
+        <message>
+            <source>Diameter of the bar</source>
+            <translation>Durchmesser des Bügels</translation>
+        </message>
+        <message>
+            <source>Diameter</source>
+            <translation>Durchmesser</translation>
+        </message>
+        <message>
+            <source>Length of the bar that bears</source>
+            <translation>Tragende Länge des Bügels</translation>
+        </message>
+        <message>
+            <source>Length</source>
+            <translation>Länge</translation>
+        </message>
+        <message>
+            <source>Wrap</source>
+            <translation>Umschlingung</translation>
+        </message>
+        <message>
+            <source>The liver&apos;s weight</source>
+            <translation>Gewicht der Leber</translation>
+        </message>
+        <message>
+            <source>Given force</source>
+            <translation>Gegebene Kraft</translation>
+        </message>
+        <message>
+            <source>Given travel</source>
+            <translation>Gegebener Weg</translation>
+        </message>
+        <message>
+            <source>Hoist</source>
+            <translation>Zug</translation>
+        </message>
+        <message>
+            <source>Force</source>
+            <translation>Kraft</translation>
+        </message>
+        <message>
+            <source>Travel</source>
+            <translation>Weg</translation>
+        </message>
+        <message>
+            <source>Glisson&apos;s capsule</source>
+            <translation>Glisson-Kapsel</translation>
+        </message>
+        <message>
+            <source>Its stiffness</source>
+            <translation>Ihre Steifigkeit</translation>
+        </message>
+        <message>
+            <source>Elastic resistance per area of the posterior and superior surface (Winkler foundation)</source>
+            <translation>Elastischer Widerstand je Fläche der hinteren und oberen Oberfläche (Winkler-Bettung)</translation>
+        </message>
+        <message>
+            <source>Resistance</source>
+            <translation>Widerstand</translation>
+        </message>
+        <message>
+            <source>A spread patch has none: choose the rigid bar.</source>
+            <translation>Ein verteilter Druck (patch) hat das nicht: den starren Bügel wählen.</translation>
+        </message>
+        <message>
+            <source>Rigid bar: a body of its own that pushes and does not pull, without friction, in large deformation. Spread patch: a pressure on the liver at rest, as in the published study.</source>
+            <translation>Starrer Bügel: ein eigener Körper, der drückt und nicht zieht, ohne Reibung, in großer Verformung. Verteilter Druck: ein Druck auf die Leber in Ruhe, wie in der veröffentlichten Studie.</translation>
+        </message>
+        <message>
+            <source>Hook: the same length bent to a quarter turn, as the blade of a Nathanson retractor</source>
+            <translation>Haken: dieselbe Länge, zu einer Vierteldrehung gebogen, wie das Blatt eines Nathanson-Retraktors</translation>
+        </message>
+        <message>
+            <source>Tissue wraps round the bar: how far its pressure reaches beyond it; 0 is a bare bar</source>
+            <translation>Gewebe legt sich um den Bügel: wie weit sein Druck über ihn hinausreicht; 0 ist ein blanker Bügel</translation>
+        </message>
+        <message>
+            <source>A rigid bar touches where it touches: only a spread patch has a wrap.</source>
+            <translation>Ein starrer Bügel berührt, wo er berührt: eine Umschlingung hat nur der verteilte Druck.</translation>
+        </message>
+        <message>
+            <source>What both livers are given: a force, or the bar&apos;s way from its first touch</source>
+            <translation>Was beiden Lebern gegeben wird: eine Kraft, oder der Weg des Bügels von seiner ersten Berührung an</translation>
+        </message>
+        <message>
+            <source>Hoisting force, towards anterior in the transverse plane</source>
+            <translation>Zugkraft nach vorn in der Transversalebene</translation>
+        </message>
+        <message>
+            <source>Choose &quot;Given force&quot; to set it.</source>
+            <translation>Zum Einstellen „Gegebene Kraft“ wählen.</translation>
+        </message>
+        <message>
+            <source>Way of the bar from its first touch, along the hoist</source>
+            <translation>Weg des Bügels von seiner ersten Berührung an, längs des Zugs</translation>
+        </message>
+        <message>
+            <source>Choose &quot;Given travel&quot; to set it.</source>
+            <translation>Zum Einstellen „Gegebener Weg“ wählen.</translation>
+        </message>
+        <message>
+            <source>Stiff skin of the liver, which carries tension along its surface</source>
+            <translation>Steife Haut der Leber, die Zug längs ihrer Oberfläche trägt</translation>
+        </message>
+        <message>
+            <source>Young&apos;s modulus of the capsule times its thickness</source>
+            <translation>Elastizitätsmodul der Kapsel mal ihre Dicke</translation>
+        </message>
+        <message>
+            <source>The capsule is left out.</source>
+            <translation>Die Kapsel ist weggelassen.</translation>
         </message>
     </context>
 </TS>

@@ -9,6 +9,7 @@
 #include <QTreeWidget>
 #include <cmath>
 
+#include "panels/contact_table.h"
 #include "panels/form.h"
 #include "panels/method_chart.h"
 #include "panels/palette_choice.h"
@@ -33,17 +34,20 @@ ComparePage::ComparePage(session::Session& session, QWidget* parent)
       session_(session),
       overlay_(new views::PictureView),
       scene_(new views::SceneView),
-      boxes_(new views::PictureView) {
+      boxes_(new views::PictureView),
+      forces_(new views::PictureView) {
   overlay_->setObjectName(QStringLiteral("overlayView"));
   overlay_->setHint(tr("Run the retraction to compare MRE with the atlas."));
   scene_->setObjectName(QStringLiteral("compareScene"));
   scene_->setHint(tr("The vessels in 3-D appear here."));
   boxes_->setObjectName(QStringLiteral("boxPlotView"));
   boxes_->setHint(tr("The box plot of the differences appears here."));
+  forces_->setObjectName(QStringLiteral("forceView"));
   beside_ = new QStackedWidget;
   beside_->addWidget(scene_);
   beside_->addWidget(boxes_);
   beside_->addWidget(new MethodChart(session_));
+  beside_->addWidget(forces_);
   auto* left = new QWidget;
   auto* column = new QVBoxLayout(left);
   column->setContentsMargins(0, 0, 0, 0);
@@ -98,6 +102,9 @@ QWidget* ComparePage::makeSide() {
   retractorError_ = labelled({}, "faint");
   retractorError_->setObjectName(QStringLiteral("differenceAtRetractorError"));
   side->addWidget(retractorError_);
+  side->addWidget(section(tr("Contact")));
+  contact_ = new ContactTable(session_);
+  side->addWidget(contact_);
   side->addWidget(section(tr("Over the whole liver")));
   numbers_ = labelled({}, "faint");
   numbers_->setObjectName(QStringLiteral("differenceNumbers"));
@@ -122,7 +129,22 @@ QWidget* ComparePage::makeSide() {
   room->setWidget(words);
   side->addWidget(room, 1);
   side->addWidget(section(tr("Display")));
-  auto* form = new QFormLayout;
+  side->addWidget(makeDisplay());
+  export_ = button("exportButton", tr("Export pictures and report…"), {},
+                   tr("Slices, difference map, 3-D and box plot in these colours, report and record of the run"));
+  export_->setEnabled(false);
+  side->addWidget(export_);
+  connect(export_, &QPushButton::clicked, this, &ComparePage::askWhereTo);
+  connect(&session_, &session::Session::exported, this, &ComparePage::exported);
+  connect(&session_, &session::Session::statusChanged, this,
+          [this] { export_->setEnabled(session_.picture() && !session_.busy()); });
+  return frame;
+}
+
+QWidget* ComparePage::makeDisplay() {
+  auto* held = new QWidget;
+  auto* form = new QFormLayout(held);
+  form->setContentsMargins(0, 0, 0, 0);
   colours_ = new QComboBox;
   colours_->setObjectName(QStringLiteral("paletteChoice"));
   colours_->addItems({tr("Red / blue"), tr("Orange / blue (colour-blind)")});
@@ -135,13 +157,17 @@ QWidget* ComparePage::makeSide() {
   view_->addItem(tr("From the front"), static_cast<int>(render::View3D::Anterior));
   view_->addItem(tr("From below"), static_cast<int>(render::View3D::Inferior));
   form->addRow(tr("Camera"), view_);
+  shown_ = new QComboBox;
+  shown_->setObjectName(QStringLiteral("shownChoice"));
+  shown_->addItems({tr("Both answers"), tr("Contact pressure, MRE"), tr("Contact pressure, atlas")});
+  form->addRow(tr("3-D shows"), shown_);
   what_ = new QComboBox;
   what_->setObjectName(QStringLiteral("sliceChoice"));
   what_->addItems({tr("Overlay"), tr("Difference in mm")});
   form->addRow(tr("Slice"), what_);
   chart_ = new QComboBox;
   chart_->setObjectName(QStringLiteral("besideChoice"));
-  chart_->addItems({tr("3-D"), tr("Box plot"), tr("Error against run time")});
+  chart_->addItems({tr("3-D"), tr("Box plot"), tr("Error against run time"), tr("Force against travel")});
   form->addRow(tr("Beside it"), chart_);
   arrows_ = new QCheckBox(tr("Displacement arrows"));
   arrows_->setObjectName(QStringLiteral("arrowsChoice"));
@@ -154,7 +180,7 @@ QWidget* ComparePage::makeSide() {
   magnify_->setToolTip(tr("Beside the slice: where both answers differ most in it, or the vessel that was chosen"));
   magnify_->setChecked(true);
   form->addRow(QString(), magnify_);
-  for (QComboBox* box : {colours_, view_, what_, chart_}) {  // none makes the panel wider than it is
+  for (QComboBox* box : {colours_, view_, shown_, what_, chart_}) {  // none makes the panel wider than it is
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(10);
   }
@@ -165,15 +191,6 @@ QWidget* ComparePage::makeSide() {
   connect(magnify_, &QCheckBox::toggled, this, &ComparePage::drawSlice);
   connect(scene_, &views::SceneView::markChosen, this,
           [this](int id) { list_->setCurrentItem(list_->topLevelItem(id - 1)); });
-  side->addLayout(form);
-  export_ = button("exportButton", tr("Export pictures and report…"), {},
-                   tr("Slices, difference map, 3-D and box plot in these colours, report and record of the run"));
-  export_->setEnabled(false);
-  side->addWidget(export_);
-  connect(export_, &QPushButton::clicked, this, &ComparePage::askWhereTo);
-  connect(&session_, &session::Session::exported, this, &ComparePage::exported);
-  connect(&session_, &session::Session::statusChanged, this,
-          [this] { export_->setEnabled(session_.picture() && !session_.busy()); });
   connect(what_, &QComboBox::currentIndexChanged, this, [this](int index) {
     magnify_->setEnabled(index == 0);
     drawSlice();
@@ -182,6 +199,11 @@ QWidget* ComparePage::makeSide() {
     beside_->setCurrentIndex(index);
     view_->setEnabled(index == 0);
   });
+  connect(shown_, &QComboBox::currentIndexChanged, this, [this](int index) {
+    chart_->setCurrentIndex(0);
+    scene_->setShown(static_cast<render::Shown3D>(index));
+    markVessels(-1);
+  });
   connect(colours_, &QComboBox::currentIndexChanged, this, [this] {
     choosePalette(palette_());
     scene_->setPalette3D(palette_());
@@ -189,7 +211,7 @@ QWidget* ComparePage::makeSide() {
   });
   connect(view_, &QComboBox::activated, this,
           [this] { scene_->setView(static_cast<render::View3D>(view_->currentData().toInt())); });
-  return frame;
+  return held;
 }
 
 render::Palette ComparePage::palette_() const {
@@ -202,7 +224,8 @@ void ComparePage::showResult() {
   slice_->setEnabled(picture != nullptr);
   vessel_.reset();
   showVessels();
-  drawBoxes();
+  drawCharts();
+  showWhatThereIs();
   if (!picture) {
     overlay_->clear();
     overlay_->setHint(tr("Run the retraction to compare MRE with the atlas."));
@@ -215,6 +238,17 @@ void ComparePage::showResult() {
   chosen_ = false;
   drawSlice();
   showNumbers();
+}
+
+/// Pressure and way of the bar are there after a run with a rigid bar.
+void ComparePage::showWhatThereIs() {
+  const auto picture = session_.picture();
+  const bool bar = picture && picture->bar;
+  if (!bar) shown_->setCurrentIndex(0);
+  shown_->setEnabled(bar);
+  shown_->setToolTip(bar ? tr("Liver and vessels of both answers, or the contact pressure on one")
+                         : tr("Contact pressure is known after a run with a rigid bar."));
+  forces_->setHint(tr("After a run with a rigid bar: its force against its travel."));
 }
 
 bool ComparePage::insetBelow() const {
@@ -285,12 +319,13 @@ void ComparePage::drawSlice() {
 
 void ComparePage::showNumbers() {
   const auto result = session_.result();
+  contact_->show_();
   if (!result || !result->difference) {
     retractor_->setText(QStringLiteral("–"));
     retractorError_->clear();
-    numbers_->setText(tr("Not run yet."));
+    numbers_->setText(result ? tr("No difference is given: see Contact.") : tr("Not run yet."));
     vessels_->setText(QStringLiteral("–"));
-    validity_->setText(QStringLiteral("–"));
+    validity_->setText(result ? trust() : QStringLiteral("–"));
     return;
   }
   const comparison::Difference& d = *result->difference;

@@ -26,6 +26,8 @@ class SceneView;
 
 namespace glisson::panels {
 
+class ContactTable;
+
 /// Compare: where MRE and atlas place the same tissue, slice by slice and in 3-D, with the numbers and how far to trust
 /// them.
 class ComparePage : public QWidget {
@@ -51,7 +53,9 @@ class ComparePage : public QWidget {
   void markVessels(int chosen);
   void drawSlice();
   bool insetBelow() const;
-  void drawBoxes();
+  void drawCharts();
+  void showWhatThereIs();
+  QWidget* makeDisplay();
   void askWhereTo();
   QWidget* makeVesselList();
   QString trust() const;
@@ -66,14 +70,15 @@ class ComparePage : public QWidget {
   bool chosen_ = false;  ///< else the slice of the largest difference is to be found and shown
   views::PictureView* overlay_;
   views::SceneView* scene_;
-  views::PictureView* boxes_;
+  views::PictureView *boxes_, *forces_;
   QStackedWidget* beside_;
   QTreeWidget* list_;
+  ContactTable* contact_;
   QCheckBox *arrows_, *magnify_;
   QPushButton* export_;
   QSlider* slice_;
   QLabel *sliceText_, *retractor_, *retractorError_, *numbers_, *vessels_, *validity_;
-  QComboBox *colours_, *view_, *what_, *chart_;
+  QComboBox *colours_, *view_, *what_, *chart_, *shown_;
 };
 
 }  // namespace glisson::panels

@@ -9,6 +9,7 @@
 
 #include "panels/compare_page.h"
 #include "panels/form.h"
+#include "pipeline/pictures.h"
 #include "session/session.h"
 #include "views/picture_view.h"
 #include "views/scene_view.h"
@@ -60,7 +61,7 @@ void ComparePage::showVessels() {
 /// Rings round the listed places in 3-D, the chosen one larger and with its distance.
 void ComparePage::markVessels(int chosen) {
   std::vector<views::Mark> marks;
-  const int count = static_cast<int>(places_.size());
+  const int count = shown_->currentIndex() == 0 ? static_cast<int>(places_.size()) : 0;
   for (int n = 0; n < count; ++n) {
     const session::VesselPlace& place = places_[static_cast<std::size_t>(n)];
     views::Mark mark{.id = n + 1, .at_lps = place.seen_lps, .shape = views::Mark::Shape::Ring};
@@ -86,23 +87,33 @@ void ComparePage::showVessel(int row) {
   drawSlice();
 }
 
-void ComparePage::drawBoxes() {
+void ComparePage::drawCharts() {
   boxes_->clear();
+  forces_->clear();
   const auto result = session_.result();
   const auto picture = session_.picture();
-  if (!result || !result->difference || !result->atlas || !picture || charter_.busy()) return;
-  auto drawn = std::make_shared<render::Picture>();
+  if (!result || !picture || charter_.busy()) return;
+  struct Drawn {
+    render::Picture boxes, forces;
+  };
+  auto drawn = std::make_shared<Drawn>();
   charter_.start(
       [result, picture, drawn](const Progress&) {
-        *drawn = render::draw(session::differenceBoxes(*result, *picture), {1100, 1000});
+        constexpr render::ChartSize size{1100, 1000};
+        if (result->difference && result->atlas)
+          drawn->boxes = render::draw(session::differenceBoxes(*result, *picture), size);
+        if (picture->bar && !picture->bar->mre.path.empty())
+          drawn->forces = render::draw(pipeline::forceChart(*picture->bar), size);
       },
       [this, drawn, result](std::exception_ptr failure) {
-        if (result != session_.result())
-          drawBoxes();
-        else if (failure)
+        if (result != session_.result()) {
+          drawCharts();
+        } else if (failure) {
           boxes_->setHint(session::reasonOf(failure));
-        else
-          boxes_->setPicture(*drawn);
+        } else {
+          if (drawn->boxes.width > 0) boxes_->setPicture(drawn->boxes);
+          if (drawn->forces.width > 0) forces_->setPicture(drawn->forces);
+        }
       });
 }
 
@@ -111,7 +122,10 @@ QString ComparePage::trust() const {
   QStringList words;
   if (session_.resultIsStale()) words << tr("Something has changed since this run: run again.");
   for (const std::string& w : result->primary.validity) words << sentence(w);
-  if (words.isEmpty()) words << tr("No warning: strains and rotations are within linear theory.");
+  if (words.isEmpty())
+    words << (result->primary.kinematics == retraction::Kinematics::Linear
+                  ? tr("No warning: strains and rotations are within linear theory.")
+                  : tr("No warning: the large deformation converged."));
   if (result->discretisation) {
     const retraction::DiscretisationError& e = *result->discretisation;
     if (e.known) {

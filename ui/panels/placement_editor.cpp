@@ -29,6 +29,18 @@ QString place(const Eigen::Vector3d& p) {
            one(p.z(), QLatin1Char('S'), QLatin1Char('I')));
 }
 
+QString proposedBy(tools::BarProof proof) {
+  switch (proof) {
+    case tools::BarProof::ByTheRun:
+      return PlacementEditor::tr(" (proposed from the liver's shape; the run proves that it bears)");
+    case tools::BarProof::Proved:
+      return PlacementEditor::tr(" (where the run has laid it)");
+    case tools::BarProof::None:
+      break;
+  }
+  return PlacementEditor::tr(" (as proposed)");
+}
+
 }  // namespace
 
 PlacementEditor::PlacementEditor(session::Session& session, views::SceneView& scene, views::SliceView& slice,
@@ -142,7 +154,9 @@ std::optional<tools::BarPlace> PlacementEditor::bar() const {
   b.length_mm = moving_ ? length_mm_ : session_.parameters().retractorLength_mm;
   if (p.barAt_lps) b.contact_lps = *p.barAt_lps;
   b.direction = p.hoistDirection.normalized();
-  b.axis = (p.barAxis - p.barAxis.dot(b.direction) * b.direction).normalized();
+  // Where nothing was laid, geometry says how the bar lies.
+  const Eigen::Vector3d axis = p.barAt_lps || p.barAxis != session::Placement{}.barAxis ? p.barAxis : b.axis;
+  b.axis = (axis - axis.dot(b.direction) * b.direction).normalized();
   return b;
 }
 
@@ -182,12 +196,13 @@ void PlacementEditor::refresh() {
     at.against = b->direction;
     marks.push_back(at);
     words << tr("Bar at %1%2, ∅ %3 mm, length %4 mm; hoisted along (%5, %6, %7).")
-                 .arg(place(b->contact_lps), p.barAt_lps ? QString() : tr(" (as proposed)"))
+                 .arg(place(b->contact_lps), p.barAt_lps ? QString() : proposedBy(b->proof))
                  .arg(b->diameter_mm, 0, 'f', 1)
                  .arg(b->length_mm, 0, 'f', 0)
                  .arg(b->direction.x(), 0, 'f', 2)
                  .arg(b->direction.y(), 0, 'f', 2)
                  .arg(b->direction.z(), 0, 'f', 2);
+    if (b->hook) words << tr("It is drawn straight; the run bends it.");
   }
   for (std::size_t n = 0; n < p.holds.size(); ++n)
     words << tr("Held %1: block of %2 mm at %3.")
@@ -221,6 +236,7 @@ void PlacementEditor::move(int handle, const Eigen::Vector3d& at, bool ended) {
   if (!active_) return;
   if (!moving_) {
     moving_ = session_.parameters().placement;
+    if (b && handle < firstHold && !moving_->barAt_lps) moving_->barAxis = b->axis;  // it stays as it is seen
     length_mm_ = session_.parameters().retractorLength_mm;
   }
   const auto model = session_.preview().picture();

@@ -1,16 +1,17 @@
 #include "panels/retract_page.h"
 
 #include <QButtonGroup>
-#include <QComboBox>
 #include <QSlider>
 #include <QSplitter>
 #include <tuple>
 
+#include "panels/contact_table.h"
 #include "panels/form.h"
 #include "panels/grey_window.h"
 #include "panels/live_bar.h"
 #include "panels/palette_choice.h"
 #include "panels/placement_editor.h"
+#include "panels/retractor_form.h"
 #include "session/session.h"
 #include "views/scene_view.h"
 #include "views/slice_view.h"
@@ -51,7 +52,6 @@ RetractPage::RetractPage(session::Session& session, QWidget* parent)
   row->setSpacing(0);
   row->addWidget(centre, 1);
   row->addWidget(makeSide());
-  connect(&session_, &session::Session::parametersChanged, this, &RetractPage::showParameters);
   connect(&session_, &session::Session::runFinished, this, &RetractPage::showResult);
   connect(&session_, &session::Session::loaded, this, [this] {
     views::ShownVolume mri;
@@ -68,7 +68,6 @@ RetractPage::RetractPage(session::Session& session, QWidget* parent)
   });
   clock_.setInterval(40);
   connect(&clock_, &QTimer::timeout, this, [this] { time_->setValue(time_->value() >= 100 ? 0 : time_->value() + 2); });
-  showParameters();
   setPlacing(true);
 }
 
@@ -147,7 +146,7 @@ QWidget* RetractPage::makePlayBar() {
   fraction_->setMinimumWidth(52);
   fraction_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   row->addWidget(fraction_);
-  notCourse_ = labelled(tr("Straight to the end of the time steps, not their course."), "faint");
+  notCourse_ = labelled({}, "faint");
   notCourse_->hide();
   row->addWidget(notCourse_);
   // Playing shows the run; the hand shows the tool: one at a time.
@@ -167,36 +166,14 @@ QWidget* RetractPage::makeSide() {
   auto* frame = new SidePanel;
   QVBoxLayout* side = frame->column();
   side->addWidget(labelled(tr("Retraction"), "heading"));
-  side->addWidget(section(tr("Nathanson retractor")));
-  auto* retractor = new QFormLayout;
-  diameter_ = quantity("retractorDiameter", 1, 60, 1, 1, QStringLiteral("mm"), tr("Diameter of the bar"));
-  retractor->addRow(tr("Diameter"), diameter_);
-  length_ = quantity("retractorLength", 5, 300, 5, 0, QStringLiteral("mm"), tr("Length of the bar that bears"));
-  retractor->addRow(tr("Length"), length_);
-  spread_ = quantity("retractorSpread", 0, 60, 1, 1, QStringLiteral("mm"),
-                     tr("Tissue wraps round the bar: how far its pressure reaches beyond it; 0 is a bare bar"));
-  retractor->addRow(tr("Wrap"), spread_);
-  forceKind_ = new QComboBox;
-  forceKind_->setObjectName(QStringLiteral("forceKind"));
-  forceKind_->addItems({tr("The liver's weight"), tr("Given force")});
-  retractor->addRow(tr("Hoist"), forceKind_);
-  force_ = quantity("retractorForce", 0.01, 500, 1, 2, QStringLiteral("N"),
-                    tr("Hoisting force, towards anterior in the transverse plane"));
-  retractor->addRow(tr("Force"), force_);
-  side->addLayout(retractor);
-  side->addWidget(labelled(tr("The same load for MRE and atlas."), "faint"));
-  side->addSpacing(8);
-  side->addWidget(section(tr("Abdomen")));
-  auto* abdomen = new QFormLayout;
-  abdomen_ = quantity("abdomenStiffness", 0.001, 100, 0.05, 3, QStringLiteral("kPa/mm"),
-                      tr("Elastic resistance per area of the posterior and superior surface (Winkler foundation)"));
-  abdomen->addRow(tr("Resistance"), abdomen_);
-  side->addLayout(abdomen);
+  side->addWidget(new RetractorForm(session_));
   side->addSpacing(8);
   side->addWidget(section(tr("Solution")));
   numbers_ = labelled({}, "faint");
   numbers_->setObjectName(QStringLiteral("solutionNumbers"));
   side->addWidget(numbers_);
+  contact_ = new ContactTable(session_);
+  side->addWidget(contact_);
   validity_ = labelled({}, "faint");
   validity_->setObjectName(QStringLiteral("retractValidity"));
   side->addWidget(validity_);
@@ -205,35 +182,7 @@ QWidget* RetractPage::makeSide() {
   run_->setProperty("primary", true);
   side->addWidget(run_);
   connect(run_, &QPushButton::clicked, this, &RetractPage::runWanted);
-  for (QDoubleSpinBox* box : {diameter_, length_, spread_, force_, abdomen_})
-    connect(box, &QDoubleSpinBox::valueChanged, this, &RetractPage::take);
-  connect(forceKind_, &QComboBox::currentIndexChanged, this, &RetractPage::take);
   return frame;
-}
-
-void RetractPage::take() {
-  if (filling_) return;
-  session::Parameters p = session_.parameters();
-  p.retractorDiameter_mm = diameter_->value();
-  p.retractorLength_mm = length_->value();
-  p.retractorSpread_mm = spread_->value();
-  p.forceIsWeight = forceKind_->currentIndex() == 0;
-  p.force_N = force_->value();
-  p.abdomen_kPa_per_mm = abdomen_->value();
-  session_.setParameters(p);
-}
-
-void RetractPage::showParameters() {
-  filling_ = true;
-  const session::Parameters& p = session_.parameters();
-  diameter_->setValue(p.retractorDiameter_mm);
-  length_->setValue(p.retractorLength_mm);
-  spread_->setValue(p.retractorSpread_mm);
-  forceKind_->setCurrentIndex(p.forceIsWeight ? 0 : 1);
-  force_->setValue(p.force_N);
-  force_->setEnabled(!p.forceIsWeight);
-  abdomen_->setValue(p.abdomen_kPa_per_mm);
-  filling_ = false;
 }
 
 void RetractPage::setPlaying(bool playing) {
@@ -244,11 +193,15 @@ void RetractPage::setPlaying(bool playing) {
 void RetractPage::showResult() {
   setPlaying(false);
   const auto result = session_.result();
+  contact_->show_();
   setPlacing(false);
   play_->setEnabled(scene_->hasScene());
   time_->setEnabled(scene_->hasScene());
   time_->setValue(100);
-  notCourse_->setVisible(result && result->primary.steps > 0);
+  const bool bar = result && result->primary.contact;
+  notCourse_->setVisible(bar || (result && result->primary.steps > 0));
+  notCourse_->setText(bar ? tr("Straight from first touch to the end, not the course of the bar.")
+                          : tr("Straight to the end of the time steps, not their course."));
   if (!result) {
     numbers_->setText(tr("Not run yet."));
     validity_->clear();
@@ -267,7 +220,10 @@ void RetractPage::showResult() {
                         .arg(r.max_rotation_deg, 0, 'f', 1));
   QStringList words;
   for (const std::string& w : r.validity) words << sentence(w);
-  validity_->setText(words.isEmpty() ? tr("Linear theory can be trusted here.") : words.join(QLatin1Char('\n')));
+  if (words.isEmpty())
+    words << (r.kinematics == retraction::Kinematics::Linear ? tr("Linear theory can be trusted here.")
+                                                             : tr("The large deformation converged."));
+  validity_->setText(words.join(QLatin1Char('\n')));
 }
 
 }  // namespace glisson::panels

@@ -3,8 +3,6 @@
 #include <QTimer>
 #include <QWidget>
 
-class QComboBox;
-class QDoubleSpinBox;
 class QLabel;
 class QPushButton;
 class QSlider;
@@ -19,6 +17,7 @@ class SliceView;
 
 namespace glisson::panels {
 
+class ContactTable;
 class LiveBar;
 class PlacementEditor;
 
@@ -43,8 +42,6 @@ class RetractPage : public QWidget {
   QWidget* makePlayBar();
   QWidget* makeModes();
   void showModes();
-  void take();
-  void showParameters();
   void showResult();
   void setPlaying(bool playing);
   void setPlacing(bool placing);
@@ -57,10 +54,8 @@ class RetractPage : public QWidget {
   QSlider* time_;
   QPushButton *play_, *run_, *place_, *moved_;
   QLabel *fraction_, *notCourse_, *numbers_, *validity_, *modeWords_;
-  QDoubleSpinBox *diameter_, *length_, *spread_, *force_, *abdomen_;
-  QComboBox* forceKind_;
+  ContactTable* contact_;
   QTimer clock_;
-  bool filling_ = false;
 };
 
 }  // namespace glisson::panels

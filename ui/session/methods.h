@@ -24,6 +24,9 @@ enum class Method {
   MovingLeastSquares
 };
 
+/// What the retractor is given: a force (the liver's weight, or any), or its way from first touch.
+enum class Drive { LiverWeight, Force, Travel };
+
 /// Who answers the equations.
 enum class Solver { Auto, Cg, Multigrid, Factorised, Condensed };
 
@@ -51,6 +54,12 @@ inline constexpr std::array<std::pair<retraction::Kinematics, const char*>, 4> k
      {retraction::Kinematics::Corotational, "corotational"},
      {retraction::Kinematics::Hyperelastic, "hyperelastic"},
      {retraction::Kinematics::Auto, "auto"}}};
+inline constexpr std::array<std::pair<retraction::ContactKind, const char*>, 2> contactNames = {
+    {{retraction::ContactKind::Rigid, "rigid"}, {retraction::ContactKind::Patch, "patch"}}};
+inline constexpr std::array<std::pair<retraction::BarShape, const char*>, 2> shapeNames = {
+    {{retraction::BarShape::Straight, "straight"}, {retraction::BarShape::Hook, "hook"}}};
+inline constexpr std::array<std::pair<Drive, const char*>, 3> driveNames = {
+    {{Drive::LiverWeight, "liver-weight"}, {Drive::Force, "force"}, {Drive::Travel, "travel"}}};
 /// Whether the scene can be one that linear theory answers, in time steps or condensed.
 inline bool mayBeLinear(retraction::Kinematics k) {
   return k == retraction::Kinematics::Linear || k == retraction::Kinematics::Auto;

@@ -15,6 +15,7 @@
 #include "pipeline/inputs.h"
 #include "pipeline/models.h"
 #include "retraction/body.h"
+#include "retraction/rigid_contact.h"
 #include "roi/contour_io.h"
 #include "session/session.h"
 
@@ -68,6 +69,7 @@ struct ModelPreview::Body {
   std::string key;
   retraction::Model model;
   image::Mask cells;
+  mechanics::TriangleSurface smooth;  ///< of the model's smooth body
   std::shared_ptr<const tools::ModelPicture> picture;  ///< without supports and bar
 };
 
@@ -75,6 +77,8 @@ ModelPreview::ModelPreview(Session& session) : QObject(&session), session_(sessi
   delay_.setSingleShot(true);
   delay_.setInterval(delay_ms);
   connect(&delay_, &QTimer::timeout, this, &ModelPreview::start);
+  // A run tells where it has laid the bar.
+  connect(&session_, &Session::runFinished, this, [this] { made_.reset(); });
   connect(&worker_, &Worker::progressed, this, [this](double fraction, const QString&, double secondsLeft) {
     progress_ = tr(" %1 %").arg(qRound(100.0 * fraction)) + timeLeft(secondsLeft);
     emit progressed();
@@ -154,9 +158,61 @@ std::shared_ptr<const tools::ModelPicture> bodyPicture(const pipeline::Scene& sc
   return p;
 }
 
+/// Where a rigid bar lies at first touch: as laid by hand, or the first place that geometry offers. Throws BadInput.
+tools::BarPlace rigidPlace(const retraction::Retractor& bar, const retraction::Model& model,
+                           const mechanics::TriangleSurface& smooth) {
+  const retraction::Pose pose = bar.at_mm ? retraction::poseAt(smooth, bar, *bar.at_mm)
+                                          : retraction::poseCandidates(*model.smooth, smooth, bar).front();
+  tools::BarPlace at;
+  at.direction = pose.hoist;
+  at.axis = pose.axis;
+  at.contact_lps = pose.centre_mm + 0.5 * bar.diameter_mm * pose.hoist;
+  at.proof = bar.at_mm ? tools::BarProof::None : tools::BarProof::ByTheRun;
+  return at;
+}
+
+/// Where the load of a patch lies. Throws BadInput.
+tools::BarPlace patchPlace(const retraction::Retractor& bar, const retraction::Body& body, const image::Mask& cells) {
+  tools::BarPlace at;
+  at.direction = bar.direction.normalized();
+  const Eigen::Vector3d axis = bar.patchAxis();
+  at.axis = (axis - axis.dot(at.direction) * at.direction).normalized();
+  at.contact_lps =
+      bar.at_mm ? *bar.at_mm : retraction::findHoistPoint(body, bar, anatomy::inferiorRightLobePoint(cells));
+  return at;
+}
+
+/// The bar of a scene; where it cannot lie at the point given it is shown there, with the reason.
+void placeBar(const pipeline::Scene& scene, const retraction::Model& model, const mechanics::TriangleSurface& smooth,
+              const retraction::Body& body, const image::Mask& cells, const std::optional<retraction::PlacedBar>& proved,
+              tools::ModelPicture& picture) {
+  for (const retraction::LoadSpec& load : scene.setup.loads) {
+    const auto* bar = std::get_if<retraction::Retractor>(&load);
+    if (!bar) continue;
+    const bool rigid = retraction::rigidBarOf(scene.setup).has_value() && model.smooth;
+    try {
+      picture.bar = rigid ? rigidPlace(*bar, model, smooth) : patchPlace(*bar, body, cells);
+      if (!rigid) retraction::findContact(body, *bar, picture.bar->contact_lps);
+    } catch (const BadInput& e) {
+      picture.barProblem = e.what();
+      if (bar->at_mm) picture.bar = patchPlace(*bar, body, cells);
+    }
+    if (!picture.bar) continue;
+    if (rigid && !bar->at_mm && proved && proved->pose) {
+      picture.bar->axis = proved->pose->axis;
+      picture.bar->contact_lps = proved->pose->centre_mm + 0.5 * bar->diameter_mm * proved->pose->hoist;
+      picture.bar->proof = tools::BarProof::Proved;
+    }
+    picture.bar->diameter_mm = bar->diameter_mm;
+    picture.bar->length_mm = bar->length_mm;
+    picture.bar->rigid = rigid;
+    picture.bar->hook = rigid && bar->shape == retraction::BarShape::Hook;
+  }
+}
+
 /// What holds the liver and where the bar lies on it.
-void place(const pipeline::Scene& scene, const retraction::Model& model, const image::Mask& cells,
-           tools::ModelPicture& picture) {
+void place(const pipeline::Scene& scene, const retraction::Model& model, const mechanics::TriangleSurface& smooth,
+           const image::Mask& cells, const std::optional<retraction::PlacedBar>& proved, tools::ModelPicture& picture) {
   const retraction::Body body(model);
   for (const retraction::SupportSpec& spec : scene.setup.supports) {
     tools::ModelPicture::Support s;
@@ -171,31 +227,14 @@ void place(const pipeline::Scene& scene, const retraction::Model& model, const i
     s.points_lps = thinned(points, mostSites);
     picture.supports.push_back(std::move(s));
   }
-  for (const retraction::LoadSpec& load : scene.setup.loads) {
-    const auto* bar = std::get_if<retraction::Retractor>(&load);
-    if (!bar) continue;
-    tools::BarPlace at;
-    at.direction = bar->direction.normalized();
-    const Eigen::Vector3d axis = bar->patchAxis();
-    at.axis = (axis - axis.dot(at.direction) * at.direction).normalized();
-    at.diameter_mm = bar->diameter_mm;
-    at.length_mm = bar->length_mm;
-    try {
-      const Eigen::Vector3d wanted =
-          bar->at_mm ? *bar->at_mm : retraction::findHoistPoint(body, *bar, anatomy::inferiorRightLobePoint(cells));
-      at.contact_lps = wanted;
-      picture.bar = at;
-      retraction::findContact(body, *bar, wanted);
-    } catch (const BadInput& e) {
-      picture.barProblem = e.what();
-    }
-  }
+  placeBar(scene, model, smooth, body, cells, proved, picture);
 }
 
 /// All of a scene that the body depends on.
 std::string bodyKey(pipeline::Scene scene) {
   scene.setup.loads.clear();
   scene.setup.supports.clear();
+  scene.setup.capsule.reset();
   return pipeline::toJson(scene);
 }
 
@@ -224,8 +263,10 @@ void ModelPreview::start() {
     std::shared_ptr<const tools::ModelPicture> picture;
   };
   auto made = std::make_shared<Made>();
+  std::optional<retraction::PlacedBar> proved;
+  if (session_.result() && !session_.resultIsStale()) proved = session_.result()->placed;
   worker_.start(
-      [made, folder, files = session_.caseFiles(folder), before = body_](const Progress& progress) {
+      [made, folder, proved, files = session_.caseFiles(folder), before = body_](const Progress& progress) {
         std::filesystem::create_directories(folder);
         const pipeline::Scene scene = readable(files, folder);
         const std::string key = bodyKey(scene) + roi::toJson(files.contours);
@@ -236,11 +277,12 @@ void ModelPreview::start() {
           const pipeline::Inputs inputs = pipeline::loadInputs(scene, progress.part(0.0, 0.3));
           body->model = pipeline::buildModels(scene, false, progress.part(0.3, 0.5), &inputs).model;
           body->cells = cellsOf(body->model);
+          if (body->model.smooth) body->smooth = body->model.smooth->surface();
           body->picture = bodyPicture(scene, body->model, body->cells, inputs, progress.part(0.5, 1.0));
           made->body = body;
         }
         auto picture = std::make_shared<tools::ModelPicture>(*made->body->picture);
-        place(scene, made->body->model, made->body->cells, *picture);
+        place(scene, made->body->model, made->body->smooth, made->body->cells, proved, *picture);
         made->picture = picture;
       },
       [this, made, revision](std::exception_ptr failure) {

@@ -3,6 +3,7 @@
 #include <QObject>
 #include <QTimer>
 #include <memory>
+#include <optional>
 
 #include "pipeline/scene.h"
 #include "session/worker.h"
@@ -40,7 +41,7 @@ class ModelPreview : public QObject {
   std::shared_ptr<const Body> body_;
   std::shared_ptr<const tools::ModelPicture> picture_;
   QString problem_, progress_;
-  std::uint64_t made_ = 0;  ///< revision of the session that the picture shows
+  std::optional<std::uint64_t> made_ = 0;  ///< revision of the session that the picture shows; empty: of none
 };
 
 }  // namespace glisson::session

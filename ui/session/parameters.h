@@ -8,8 +8,8 @@
 namespace glisson::session {
 
 /// What can be set on the Model and Retract pages; everything goes into the scene file. The defaults are those of the
-/// scene that comes with a synthetic patient but for the retractor: the window's is the linear patch that it moves live,
-/// the scene's a rigid bar in large deformation. The case that is saved says so: run by command it gives the window's numbers.
+/// scene that comes with a synthetic patient: a rigid bar in large deformation, with Glisson's capsule. The case that is
+/// saved says so: run by command it gives the window's numbers.
 struct Parameters {
   // Model
   double poisson = defaults::poisson;  ///< unitless
@@ -19,7 +19,7 @@ struct Parameters {
   int frames = 200;                                     ///< mesh-free sites
   double tetEdge_mm = retraction::ModelSpec{}.cell_mm;  ///< Delaunay: edges of the tetrahedra
   double tetToolEdge_mm = retraction::ModelSpec{}.toolCell_mm;         ///< and near the retractor
-  retraction::Kinematics kinematics = retraction::Kinematics::Linear;  ///< other ones: hexahedra at rest only
+  retraction::Kinematics kinematics = retraction::Kinematics::Auto;  ///< large deformation: hexahedra at rest only
   Solver solver = Solver::Auto;
   bool dynamic = false;  ///< time steps to the new rest instead of one solve; hexahedra and mesh-free only
   double step_ms = retraction::AnalysisSpec{}.h_ms;
@@ -30,9 +30,15 @@ struct Parameters {
   // Retract
   double retractorDiameter_mm = defaults::retractorDiameter.mm();
   double retractorLength_mm = retraction::Retractor{}.length_mm;
-  double retractorSpread_mm = retraction::Retractor{}.spread_mm;  ///< how far tissue wraps round the bar
-  bool forceIsWeight = true;
-  double force_N = 15.0;            ///< where it is not the liver's weight
+  /// A rigid bar where model, analysis, solver and kinematics offer it; else, and where it is wanted, a spread patch.
+  retraction::ContactKind contact = retraction::ContactKind::Rigid;
+  retraction::BarShape shape = retraction::BarShape::Straight;    ///< of a rigid bar
+  double retractorSpread_mm = retraction::Retractor{}.spread_mm;  ///< of a patch: how far tissue wraps round the bar
+  Drive drive = Drive::LiverWeight;
+  double force_N = 15.0;    ///< Drive::Force
+  double travel_mm = 40.0;  ///< Drive::Travel, of a rigid bar
+  bool capsule = true;      ///< Glisson's capsule, under a rigid bar
+  double capsule_N_per_mm = retraction::Capsule{}.tension_N_per_mm;
   double abdomen_kPa_per_mm = 0.1;  ///< Winkler foundation, posterior and superior surface
   Placement placement;              ///< of bar, hoist and holds, by hand
 

@@ -28,10 +28,26 @@ inline nlohmann::json toJson(const Parameters& p) {
           {"retractor_diameter_mm", p.retractorDiameter_mm},
           {"retractor_length_mm", p.retractorLength_mm},
           {"retractor_spread_mm", p.retractorSpread_mm},
-          {"force_is_weight", p.forceIsWeight},
+          {"contact", nameIn(contactNames, p.contact)},
+          {"shape", nameIn(shapeNames, p.shape)},
+          {"drive", nameIn(driveNames, p.drive)},
           {"force_N", p.force_N},
+          {"travel_mm", p.travel_mm},
+          {"capsule", p.capsule},
+          {"capsule_N_per_mm", p.capsule_N_per_mm},
           {"abdomen_kPa_per_mm", p.abdomen_kPa_per_mm},
           {"placement", toJson(p.placement)}};
+}
+
+/// How the bar meets the liver. A case of before this could be set has the linear patch of its time, without a capsule.
+inline void readContact(const nlohmann::json& j, Parameters& p) {
+  p.contact = named(contactNames, j.value("contact", nameIn(contactNames, retraction::ContactKind::Patch)), "contact");
+  p.shape = named(shapeNames, j.value("shape", nameIn(shapeNames, p.shape)), "shape");
+  const Drive before = j.value("force_is_weight", true) ? Drive::LiverWeight : Drive::Force;
+  p.drive = named(driveNames, j.value("drive", nameIn(driveNames, before)), "drive");
+  p.travel_mm = j.value("travel_mm", p.travel_mm);
+  p.capsule = j.value("capsule", false);
+  p.capsule_N_per_mm = j.value("capsule_N_per_mm", p.capsule_N_per_mm);
 }
 
 /// The reverse. Throws BadInput for a choice that is not known, nlohmann's exceptions for a missing key or another
@@ -46,7 +62,8 @@ inline Parameters parametersFromJson(const nlohmann::json& j) {
   // Cases of before these could be set have the defaults.
   p.tetEdge_mm = j.value("tet_edge_mm", p.tetEdge_mm);
   p.tetToolEdge_mm = j.value("tet_tool_edge_mm", p.tetToolEdge_mm);
-  p.kinematics = named(kinematicsNames, j.value("kinematics", nameIn(kinematicsNames, p.kinematics)), "kinematics");
+  p.kinematics =
+      named(kinematicsNames, j.value("kinematics", nameIn(kinematicsNames, retraction::Kinematics::Linear)), "kinematics");
   p.solver = named(solverNames, j.value("solver", nameIn(solverNames, p.solver)), "solver");
   p.dynamic = j.value("dynamic", p.dynamic);
   p.step_ms = j.value("step_ms", p.step_ms);
@@ -57,8 +74,8 @@ inline Parameters parametersFromJson(const nlohmann::json& j) {
   p.retractorDiameter_mm = j.at("retractor_diameter_mm").get<double>();
   p.retractorLength_mm = j.at("retractor_length_mm").get<double>();
   p.retractorSpread_mm = j.at("retractor_spread_mm").get<double>();
-  p.forceIsWeight = j.at("force_is_weight").get<bool>();
   p.force_N = j.at("force_N").get<double>();
+  readContact(j, p);
   p.abdomen_kPa_per_mm = j.at("abdomen_kPa_per_mm").get<double>();
   if (j.contains("placement")) p.placement = placementFromJson(j["placement"]);
   return p;

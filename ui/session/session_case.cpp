@@ -11,6 +11,7 @@
 #include "session/imported_roi.h"
 #include "session/measured_contours.h"
 #include "session/session.h"
+#include "session/setup_of.h"
 
 namespace glisson::session {
 
@@ -22,44 +23,13 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
   s.geometry.roi = folder / "contours.json";
   s.material.kind =
       parameters_.useMre && images_.stiffness ? pipeline::MaterialSpec::Kind::Mre : pipeline::MaterialSpec::Kind::Atlas;
-  s.setup.poisson = parameters_.poisson;
-  s.setup.density = Density::fromKgPerM3(parameters_.density_kg_m3);
   const Choices& choices = images_.choices;
   s.geometry.roles = choices.roles;
   s.geometry.overrideChecks = choices.together.value_or(false) || choices.otherFrame;
   s.geometry.mreQuantity = choices.quantity;
   s.geometry.mreUnit = choices.unit;
   s.geometry.rigidRegistration = parameters_.registerRigidly && s.material.kind == pipeline::MaterialSpec::Kind::Mre;
-  s.setup.model = modelOf(parameters_.method);
-  s.setup.model.meshfree.frames = parameters_.frames;
-  s.setup.model.cell_mm = parameters_.tetEdge_mm;
-  s.setup.model.toolCell_mm = parameters_.tetToolEdge_mm;
-  s.setup.kinematics = parameters_.kinematics;
-  s.setup.analysis.dynamic = parameters_.dynamic;
-  s.setup.analysis.h_ms = parameters_.step_ms;
-  s.setup.analysis.end_s = parameters_.end_s;
-  s.setup.condensed = parameters_.solver == Solver::Condensed;
-  s.setup.solver.kind = parameters_.solver == Solver::Cg           ? mechanics::SolverKind::Cg
-                        : parameters_.solver == Solver::Multigrid  ? mechanics::SolverKind::Multigrid
-                        : parameters_.solver == Solver::Factorised ? mechanics::SolverKind::Factorised
-                                                                   : mechanics::SolverKind::Auto;
-  s.setup.solver.element = s.setup.model.element;
-  for (const char* surface : {"posterior", "superior"}) {
-    retraction::SupportSpec abdomen;
-    abdomen.kind = retraction::SupportSpec::Kind::Spring;
-    abdomen.region = retraction::SurfaceRegion{surface};
-    abdomen.stiffness_kPa_per_mm = parameters_.abdomen_kPa_per_mm;
-    s.setup.supports.push_back(abdomen);
-  }
-  retraction::Retractor retractor;
-  retractor.diameter_mm = parameters_.retractorDiameter_mm;
-  retractor.length_mm = parameters_.retractorLength_mm;
-  retractor.spread_mm = parameters_.retractorSpread_mm;
-  // What follows the hand is a patch of pressure; the run beside it has to be the same.
-  retractor.contact = retraction::ContactKind::Patch;
-  if (!parameters_.forceIsWeight) retractor.force_N = parameters_.force_N;
-  s.setup.loads.push_back(retractor);
-  session::apply(parameters_.placement, s.setup);
+  s.setup = setupOf(parameters_);
   s.compare = pipeline::CompareSpec{parameters_.atlasShear_kPa, StiffnessQuantity::Shear};
   s.outputs.vessels = s.outputs.overlay = s.outputs.report = true;
   return s;

@@ -9,12 +9,19 @@
 
 namespace glisson::tools {
 
+/// What is known of a place that was proposed for a rigid bar: that it bears the load is proved by the run, which goes on
+/// to the next place where it does not.
+enum class BarProof { None, ByTheRun, Proved };
+
 /// The bar as it lies against the liver, LPS.
 struct BarPlace {
   Eigen::Vector3d contact_lps = Eigen::Vector3d::Zero();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();        ///< unit, across the direction
   Eigen::Vector3d direction = -Eigen::Vector3d::UnitY();  ///< of the hoist, unit
   double diameter_mm = 10.0, length_mm = 80.0;
+  bool rigid = false;  ///< a body of its own at first touch; else a patch of pressure
+  bool hook = false;   ///< bent, though drawn straight
+  BarProof proof = BarProof::None;
 };
 
 /// What a model is made of, before anything is solved.

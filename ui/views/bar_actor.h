@@ -21,7 +21,6 @@ class BarActor {
  private:
   vtkNew<vtkActor> actor_;
   vtkNew<vtkTransform> transform_;
-  Eigen::Matrix4d frame_ = Eigen::Matrix4d::Identity();
 };
 
 }  // namespace glisson::views

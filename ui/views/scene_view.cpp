@@ -132,6 +132,14 @@ void SceneView::setPalette3D(render::Palette palette) {
   compose(true);
 }
 
+void SceneView::setShown(render::Shown3D shown) {
+  if (options_.shown == shown) return;
+  options_.shown = shown;
+  options_.camera.reset();
+  if (shown != render::Shown3D::Answers) options_.camera = render::barCamera;
+  compose(false);
+}
+
 void SceneView::setArrows(bool on) {
   if (options_.arrows == on) return;
   options_.arrows = on;
@@ -140,6 +148,7 @@ void SceneView::setArrows(bool on) {
 
 void SceneView::setView(render::View3D view) {
   options_.view = view;
+  options_.camera.reset();
   compose(false);
 }
 
@@ -195,6 +204,8 @@ void SceneView::compose(bool keepCamera) {
   auto options = options_;
   options.width = std::max(qRound(width() * devicePixelRatioF()), 64);
   options.height = std::max(qRound(height() * devicePixelRatioF()), 64);
+  const bool pressure = scene_->bar && (options.shown == render::Shown3D::PressureMre || scene_->bar->atlas);
+  if (layer_ || !pressure) options.shown = render::Shown3D::Answers;
   if (layer_) options.t = 0.0, options.retractor = false;  // the live layer has the bar in hand
   painter_.change(composed, [scene = scene_, layer = layer_, options](vtkRenderer& renderer) {
     render::populate3D(&renderer, *scene, options);

@@ -12,6 +12,8 @@
 #include "session/case_file.h"
 #include "session/case_lock.h"
 #include "session/measured_contours.h"
+#include "session/parameters_json.h"
+#include "session/setup_of.h"
 #include "session/work_folder.h"
 #include "support/support.h"
 #include "tool_bench.h"
@@ -40,6 +42,12 @@ CaseRecord record(double x) {
   r.parameters.tetEdge_mm = 7.25;
   r.parameters.registerRigidly = true;
   r.parameters.retractorDiameter_mm = 12.5;
+  r.parameters.contact = retraction::ContactKind::Patch;
+  r.parameters.shape = retraction::BarShape::Hook;
+  r.parameters.drive = Drive::Travel;
+  r.parameters.travel_mm = 33.5;
+  r.parameters.capsule = false;
+  r.parameters.capsule_N_per_mm = 0.31;
   r.measure = {true, 4};
   r.sceneJson = "{}\n";
   return r;
@@ -58,6 +66,50 @@ TEST(CaseFile, ComesBackToTheBit) {
   EXPECT_EQ(read.choices, wrote.choices);
   EXPECT_EQ(read.seriesUid, wrote.seriesUid);
   EXPECT_EQ(read.sceneJson, wrote.sceneJson);
+}
+
+TEST(CaseFile, ACaseOfBeforeContactHasTheLinearPatchOfItsTime) {
+  nlohmann::json j = toJson(Parameters{});
+  for (const char* key : {"contact", "shape", "drive", "travel_mm", "capsule", "capsule_N_per_mm", "kinematics"})
+    j.erase(key);
+  j["force_is_weight"] = false;
+  j["force_N"] = 4.5;
+  const Parameters p = parametersFromJson(j);
+  EXPECT_EQ(p.contact, retraction::ContactKind::Patch);
+  EXPECT_EQ(p.kinematics, retraction::Kinematics::Linear);
+  EXPECT_EQ(p.drive, Drive::Force);
+  EXPECT_EQ(p.force_N, 4.5);
+  EXPECT_FALSE(p.capsule);
+}
+
+TEST(Setup, IsARigidBarWithCapsuleByDefaultAndAPatchWhereNoneIsOffered) {
+  const auto barOf = [](const retraction::Setup& s) { return std::get<retraction::Retractor>(s.loads.at(0)); };
+  Parameters p;
+  p.drive = Drive::Travel;
+  p.shape = retraction::BarShape::Hook;
+  EXPECT_FALSE(rigidRefusal(p));
+  retraction::Setup s = setupOf(p);
+  ASSERT_TRUE(retraction::rigidBarOf(s));
+  EXPECT_EQ(barOf(s).travel_mm, p.travel_mm);
+  EXPECT_EQ(barOf(s).shape, retraction::BarShape::Hook);
+  EXPECT_EQ(s.kinematics, retraction::Kinematics::Auto);
+  ASSERT_TRUE(s.capsule);
+  EXPECT_EQ(s.capsule->tension_N_per_mm, retraction::Capsule{}.tension_N_per_mm);
+
+  const auto refuses = [&](retraction::RigidRefusal why, auto&& change) {
+    Parameters q = p;
+    change(q);
+    EXPECT_EQ(rigidRefusal(q), why);
+    const retraction::Setup patch = setupOf(q);
+    EXPECT_FALSE(retraction::rigidBarOf(patch));
+    EXPECT_FALSE(barOf(patch).travel_mm || barOf(patch).force_N || patch.capsule);
+    EXPECT_EQ(barOf(patch).shape, retraction::BarShape::Straight);
+  };
+  refuses(retraction::RigidRefusal::Model, [](Parameters& q) { q.method = Method::WendlandAffine; });
+  refuses(retraction::RigidRefusal::TimeSteps, [](Parameters& q) { q.dynamic = true; });
+  refuses(retraction::RigidRefusal::Condensed, [](Parameters& q) { q.solver = Solver::Condensed; });
+  refuses(retraction::RigidRefusal::Corotational,
+          [](Parameters& q) { q.kinematics = retraction::Kinematics::Corotational; });
 }
 
 TEST(CaseFile, EveryFlippedBitIsFoundAndAWholeVersionNamed) {
