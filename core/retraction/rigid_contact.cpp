@@ -220,6 +220,7 @@ void addFollowing(const Body& body, const Setup& setup, const Eigen::Vector3d& s
     return c;
   };
   for (const LoadSpec& load : setup.loads) {
+    if (setup.kinematics == Kinematics::Linear) break;  // faces neither turn nor grow: their loads are dead ones
     const auto* pressure = std::get_if<Pressure>(&load);
     if (pressure != nullptr && pressure->follows)
       for (const SurfaceFace* f : body.faces(pressure->region))

@@ -271,8 +271,11 @@ MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& se
   const bool rigid = rigidBarOf(setup).has_value();
   scene.problem.f_N = zeroField(body);
   for (const LoadSpec& load : setup.loads) {
-    scene.tractions.push_back(std::visit(LoadBuilder{body, model, scene.contact, rigid, inLargeDeformation(setup),
-                                                     setup.kinematics == Kinematics::Corotational}, load));
+    scene.tractions.push_back(std::visit(
+        LoadBuilder{body, model, scene.contact, rigid,
+                    inLargeDeformation(setup) && setup.kinematics != Kinematics::Linear,
+                    setup.kinematics == Kinematics::Corotational},
+        load));
     const auto* weight = std::get_if<BodyForce>(&load);
     scene.loads_N.push_back(weight ? mechanics::bodyForce(body.mesh(), body.vectorToLocal(weight->N_per_m3))
                                    : nodalForces(body, scene.tractions.back()));

@@ -9,6 +9,7 @@ namespace {
 constexpr double largestStep_m = 0.010;
 constexpr double forcing = 0.1;  ///< of the inner solve
 constexpr int unsymmetricLimit = 120;
+constexpr int mostUnsolved = 4;  ///< unsymmetric steps in turn that GMRES does not find: near a limit of the load
 constexpr double armijo = 1e-4;
 constexpr int halvings = 12;
 constexpr double deeperOf = 0.25;  ///< of the barrier's width: what a step may lead a sample deeper beyond it
@@ -33,6 +34,7 @@ struct Minimiser {
   bool travels;
   ContactEnergy::Value now, next;
   std::vector<double> step;
+  int unsolved = 0;
 
   double load() const {
     const double given = goal.force_N ? std::abs(*goal.force_N) : now.contact_N;
@@ -44,8 +46,10 @@ struct Minimiser {
     const bool symmetric = positive || energy.hasPotential();
     const TangentSolve solve = symmetric
                                    ? hierarchy.solve(energy.top(), b, step, forcing, goal.innerLimit, positive)
-                                   : hierarchy.solveUnsymmetric(energy.top(), b, step, forcing, unsymmetricLimit);
+                                   : hierarchy.solveUnsymmetric(energy.top(), b, step, forcing,
+                                                                std::min(goal.innerLimit, unsymmetricLimit));
     run.inner += solve.iterations;
+    if (!symmetric) unsolved = solve.outcome == TangentOutcome::Limit ? unsolved + 1 : 0;
     if (!positive) run.indefinite = solve.outcome == TangentOutcome::Indefinite;
     if (!travels) step.back() = 0;
     double largest = std::abs(step.back());
@@ -88,7 +92,7 @@ struct Minimiser {
 NewtonRun minimise(SolidHierarchy& hierarchy, const ContactEnergy& energy, ContactEnergy::State& state,
                    const NewtonGoal& goal, const Progress& progress) {
   NewtonRun run;
-  Minimiser m{hierarchy, energy, goal, goal.force_N.has_value() && energy.hasBar(), {}, {}, {}};
+  Minimiser m{hierarchy, energy, goal, goal.force_N.has_value() && energy.hasBar(), {}, {}, {}, 0};
   if (!energy.evaluate(state, goal.force_N, m.travels, m.now)) return run;
   const Eigen::Vector3d hoist = energy.hasBar() ? energy.bar().hoist : Eigen::Vector3d::Zero();
   for (;; ++run.iterations) {
@@ -98,7 +102,7 @@ NewtonRun minimise(SolidHierarchy& hierarchy, const ContactEnergy& energy, Conta
       run.converged = true;
       return run;
     }
-    if (run.iterations == goal.limit) return run;
+    if (run.iterations == goal.limit || m.unsolved > mostUnsolved) return run;
     hierarchy.setFollowers(energy.followers(state));
     if (!hierarchy.linearise(energy.top(), energy.law(), state.u.data(), energy.stiffness(state), m.travels, hoist))
       return run;
