@@ -3164,10 +3164,6 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
             <translation>Atlas</translation>
         </message>
         <message>
-            <source>Not run yet.</source>
-            <translation>Noch nicht gerechnet.</translation>
-        </message>
-        <message>
             <source>Travel</source>
             <translation>Weg</translation>
         </message>

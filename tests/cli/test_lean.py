@@ -107,8 +107,9 @@ class Lean(unittest.TestCase):
         names = [f["file"] for f in cli_json("render", self.full, "--camera", "left", "--camera=-40,35", "--slice", 5,
                                              "--palette", "colour-blind", "--size", "400x300", "--dpi", 150,
                                              "--output", out)["files"]]
-        self.assertEqual(sorted(names), ["difference-map-slice-5.png", "overlay-3d-az-40-el35.png", "overlay-3d-left.png",
-                                         "overlay-slice-5.png"])
+        pressure = [f"contact-pressure-{of}-{camera}.png" for of in ("atlas", "mre") for camera in ("az-40-el35", "left")]
+        self.assertEqual(sorted(names), pressure + ["difference-map-slice-5.png", "overlay-3d-az-40-el35.png",
+                                                    "overlay-3d-left.png", "overlay-slice-5.png"])
         for name in names:
             data = (out / name).read_bytes()
             self.assertEqual(data[37:41], b"pHYs", name)

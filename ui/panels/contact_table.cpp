@@ -76,7 +76,7 @@ void ContactTable::show_() {
   rows_->hide();
   const auto result = session_.result();
   if (!result) {
-    words_->setText(tr("Not run yet."));
+    words_->setText(QStringLiteral("–"));
     return;
   }
   QStringList words;
