@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
   addPropose(app, context);
   addPlan(app, context);
   addRun(app, context);
+  addDemo(app, context);
   addCohort(app, context);
   addLive(app, context);
   addExport(app, context);

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "diagnostics_json.h"
+#include "phantom/phantom.h"
 #include "pipeline/run.h"
 #include "render/backend.h"
 #include "verbs.h"
@@ -48,6 +49,33 @@ bool slipped(const pipeline::RunResult& r) {
   return (r.primary.contact && r.primary.contact->slipped) || (r.atlas && r.atlas->contact && r.atlas->contact->slipped);
 }
 
+void useBackend(const Context& context) {
+  render::setRenderBackend(context.renderBackend == "egl"   ? render::RenderBackend::Egl
+                           : context.renderBackend == "x11" ? render::RenderBackend::X11
+                                                            : render::RenderBackend::Auto);
+}
+
+/// Runs, prints and judges; an exit code.
+int runScene(const pipeline::Scene& scene, const pipeline::RunOptions& options, const Context& context,
+             const Progress& progress) {
+  const pipeline::RunResult r = pipeline::run(scene, options, progress);
+  context.print(Json::parse(r.json), summary(r));
+  refuseIfStrict(context, r.diagnostics, r.warnings);
+  if (r.primary.solver.converged() && (!r.atlas || r.atlas->solver.converged())) return Ok;
+  const bool ofAtlas = r.primary.solver.converged();
+  const mechanics::SolveReport& failed = ofAtlas ? r.atlas->solver : r.primary.solver;
+  std::cerr << "glisson-cli: the solve " << (ofAtlas ? "with the atlas stiffness " : "") << "did not converge ("
+            << failed.kind << ", residual " << failed.residual << "); its result is marked and not drawn: "
+            << (slipped(r) ? "the bar slips; choose another place or a smaller force"
+                : r.primary.kinematics != retraction::Kinematics::Linear
+                    ? "this load folds the body; lower it, spread it or stiffen the supports"
+                : scene.setup.solver.kind == mechanics::SolverKind::Auto
+                    ? "use smaller cells, less contrast between the moduli or a smaller Poisson's ratio"
+                    : "raise \"iterations\" or use solver \"auto\"")
+            << std::endl;
+  return NotConverged;
+}
+
 }  // namespace
 
 void addRun(CLI::App& app, Context& context) {
@@ -63,31 +91,31 @@ void addRun(CLI::App& app, Context& context) {
       pipeline::Scene scene = pipeline::readScene(*scenePath);
       scene.geometry.overrideChecks = scene.geometry.overrideChecks || *overrideChecks;
       if (context.seedGiven) scene.setup.seed = scene.setup.model.meshfree.seed = context.seed;
-      render::setRenderBackend(context.renderBackend == "egl"   ? render::RenderBackend::Egl
-                               : context.renderBackend == "x11" ? render::RenderBackend::X11
-                                                                : render::RenderBackend::Auto);
+      useBackend(context);
       pipeline::RunOptions options;
       const auto here = std::filesystem::is_directory(*scenePath) ? *scenePath : scenePath->parent_path();
       options.output = context.output.empty() ? here / "glisson-run" : context.output;
       options.palette = *colourBlind ? render::Palette::ColourBlind : render::Palette::RedBlue;
-      const pipeline::RunResult r = pipeline::run(scene, options, context.progress());
-      context.print(Json::parse(r.json), summary(r));
-      refuseIfStrict(context, r.diagnostics, r.warnings);
-      if (!r.primary.solver.converged() || (r.atlas && !r.atlas->solver.converged())) {
-        const bool ofAtlas = r.primary.solver.converged();
-        const mechanics::SolveReport& failed = ofAtlas ? r.atlas->solver : r.primary.solver;
-        std::cerr << "glisson-cli: the solve " << (ofAtlas ? "with the atlas stiffness " : "") << "did not converge ("
-                  << failed.kind << ", residual " << failed.residual << "); its result is marked and not drawn: "
-                  << (slipped(r) ? "the bar slips; choose another place or a smaller force"
-                      : r.primary.kinematics != retraction::Kinematics::Linear
-                          ? "this load folds the body; lower it, spread it or stiffen the supports"
-                      : scene.setup.solver.kind == mechanics::SolverKind::Auto
-                          ? "use smaller cells, less contrast between the moduli or a smaller Poisson's ratio"
-                          : "raise \"iterations\" or use solver \"auto\"")
-                  << std::endl;
-        return NotConverged;
-      }
-      return Ok;
+      return runScene(scene, options, context, context.progress());
+    };
+  });
+}
+
+void addDemo(CLI::App& app, Context& context) {
+  CLI::App* verb = app.add_subcommand("demo", "a synthetic patient, from DICOM to pictures (--output: glisson-demo)");
+  verb->callback([&context] {
+    context.action = [&context] {
+      const std::filesystem::path folder = context.output.empty() ? "glisson-demo" : context.output;
+      const Progress progress = context.progress();
+      phantom::PhantomOptions patient;
+      patient.seed = context.seed;
+      const auto written = phantom::writeCohort(patient, folder, progress.part(0.0, 0.3));
+      useBackend(context);
+      pipeline::RunOptions options;
+      options.output = folder / "run";
+      context.note("the patient is in " + written.front().string() + ", what is computed will be in " +
+                   options.output.string());
+      return runScene(pipeline::readScene(written.front() / "scene.json"), options, context, progress.part(0.3, 1.0));
     };
   });
 }

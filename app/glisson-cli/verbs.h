@@ -58,6 +58,7 @@ void addPlan(CLI::App& app, Context& context);
 void addRender(CLI::App& app, Context& context);
 void addReplay(CLI::App& app, Context& context);
 void addRun(CLI::App& app, Context& context);
+void addDemo(CLI::App& app, Context& context);
 void addCohort(CLI::App& app, Context& context);
 void addLive(CLI::App& app, Context& context);
 void addExport(CLI::App& app, Context& context);

@@ -427,8 +427,56 @@
             <translation>%1 mm</translation>
         </message>
         <message>
-            <source>Tool %1 mm from rest with %2 N (the run: %3 N). Difference under the bar, weighted by its pressure, %4 mm</source>
-            <translation>Werkzeug %1 mm aus der Ruhe mit %2 N (der Lauf: %3 N). Unterschied unter dem Bügel, nach seinem Druck gewichtet, %4 mm</translation>
+            <source>What both livers share</source>
+            <translation>Was beide Lebern gemeinsam haben</translation>
+        </message>
+        <message>
+            <source>equal force</source>
+            <translation>gleiche Kraft</translation>
+        </message>
+        <message>
+            <source>equal travel</source>
+            <translation>gleicher Weg</translation>
+        </message>
+        <message>
+            <source>Equal force: the liver with textbook stiffness is pulled as hard as the measured one, as in the run. Equal travel: the tool goes as far in both</source>
+            <translation>Gleiche Kraft: an der Leber mit Lehrbuchsteifigkeit wird so stark gezogen wie an der gemessenen, wie im Lauf. Gleicher Weg: das Werkzeug geht in beiden gleich weit</translation>
+        </message>
+        <message>
+            <source>Tool %1 mm from rest with %2 N (the run: %3 N)</source>
+            <translation>Werkzeug %1 mm aus der Ruhe mit %2 N (der Lauf: %3 N)</translation>
+        </message>
+        <message>
+            <source>; with atlas stiffness it goes %1 mm, %2 mm from there</source>
+            <translation>; mit Lehrbuchsteifigkeit geht es %1 mm weit, %2 mm von dort entfernt</translation>
+        </message>
+        <message>
+            <source>; with atlas stiffness that takes %1 N</source>
+            <translation>; mit Lehrbuchsteifigkeit braucht das %1 N</translation>
+        </message>
+        <message>
+            <source>Simulation %1 ms a frame (%2 frames/s possible)</source>
+            <translation>Simulation %1 ms je Bild (%2 Bilder/s möglich)</translation>
+        </message>
+        <message>
+            <source>; on screen %1 pictures/s</source>
+            <translation>; am Schirm %1 Bilder/s</translation>
+        </message>
+        <message>
+            <source>; at rest, on %1 degrees of freedom</source>
+            <translation>; in Ruhe, auf %1 Freiheitsgraden</translation>
+        </message>
+        <message>
+            <source>; up to %1 mm from rest, on %2 degrees of freedom</source>
+            <translation>; bis zu %1 mm von der Ruhe entfernt, auf %2 Freiheitsgraden</translation>
+        </message>
+        <message>
+            <source>The bar slips: the liver does not bear this force here.</source>
+            <translation>Der Bügel rutscht ab: die Leber trägt diese Kraft hier nicht.</translation>
+        </message>
+        <message>
+            <source>With atlas stiffness the bar slips: that liver does not bear this force here.</source>
+            <translation>Mit Lehrbuchsteifigkeit rutscht der Bügel ab: jene Leber trägt diese Kraft hier nicht.</translation>
         </message>
         <message>
             <source>; vessels: mean %1, largest %2 mm, %3 of %4 landmarks at 5 mm or more</source>
@@ -437,14 +485,6 @@
         <message>
             <source>Linear theory, far beyond the force of the run: shapes are not to be trusted.</source>
             <translation>Lineare Theorie, weit über der Kraft des Laufs: den Formen ist nicht zu trauen.</translation>
-        </message>
-        <message>
-            <source>Simulation %1 ms a frame (%2 frames/s possible).</source>
-            <translation>Simulation %1 ms je Bild (%2 Bilder/s möglich).</translation>
-        </message>
-        <message>
-            <source>Simulation %1 ms a frame (%2 frames/s possible); on screen %3 pictures/s.</source>
-            <translation>Simulation %1 ms je Bild (%2 Bilder/s möglich); am Schirm %3 Bilder/s.</translation>
         </message>
     </context>
     <context>

@@ -198,14 +198,18 @@ QString LiveBar::numbers() const {
   const session::LivePair& pair = hand_->pair();
   const session::LiveFrame& f = *frame_;
   const bool equalForce = comparison_->currentData().toInt() == static_cast<int>(session::LiveComparison::EqualForce);
+  // A rigid bar also keeps its place across the hoist; what is compared and asked for is the force along it.
+  const bool contact = pair.kind() == retraction::LiveKind::Contact;
+  const Eigen::Vector3d hoist = pair.sceneForce_N().normalized();
+  const auto pull_N = [&](const Eigen::Vector3d& force_N) { return contact ? force_N.dot(hoist) : force_N.norm(); };
   QString text = tr("Tool %1 mm from rest with %2 N (the run: %3 N)")
                      .arg(f.toolMre_mm.norm(), 0, 'f', 1)
-                     .arg(f.force_N.norm(), 0, 'f', 1)
+                     .arg(std::abs(pull_N(f.force_N)), 0, 'f', 1)
                      .arg(pair.sceneForce_N().norm(), 0, 'f', 1);
   text += equalForce ? tr("; with atlas stiffness it goes %1 mm, %2 mm from there")
                            .arg(f.toolAtlas_mm.norm(), 0, 'f', 1)
                            .arg(f.atTool_mm, 0, 'f', 2)
-                     : tr("; with atlas stiffness that takes %1 N").arg(f.forceAtlas_N.norm(), 0, 'f', 1);
+                     : tr("; with atlas stiffness that takes %1 N").arg(std::abs(pull_N(f.forceAtlas_N)), 0, 'f', 1);
   const auto landmarks = f.mre_mm.cols() - pair.liverVertices() - pair.vesselVertices();
   if (landmarks > 0)
     text += tr("; vessels: mean %1, largest %2 mm, %3 of %4 landmarks at 5 mm or more")
@@ -217,7 +221,7 @@ QString LiveBar::numbers() const {
   if (f.mreSlips || f.atlasSlips)
     text += QLatin1Char(' ') + (f.mreSlips ? tr("The bar slips: the liver does not bear this force here.")
                                            : tr("With atlas stiffness the bar slips: that liver does not bear this force here."));
-  if (pair.kind() == retraction::LiveKind::Condensed && f.force_N.norm() > 1.5 * pair.sceneForce_N().norm())
+  if (!contact && f.force_N.norm() > 1.5 * pair.sceneForce_N().norm())
     text += QLatin1Char(' ') + tr("Linear theory, far beyond the force of the run: shapes are not to be trusted.");
   return text;
 }

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <optional>
 
+#include "render/rigid_bar.h"
 #include "views/bar_actor.h"
 
 namespace glisson::views {
@@ -119,7 +120,7 @@ LiveLayer::LiveLayer(const render::RetractionScene& scene, render::Palette palet
   if (scene.retractorPoint_lps_mm) {
     rest_lps_ = tool_lps_ = *scene.retractorPoint_lps_mm;
     const tools::BarPlace place{rest_lps_, scene.retractorAxis, scene.retractorDirection, scene.retractorDiameter_mm,
-                                scene.retractorLength_mm};
+                                scene.retractorLength_mm, scene.bar.has_value()};
     d_->bar.emplace(place);
     d_->atlasBar.emplace(place);
     d_->atlasBar->actor()->GetProperty()->SetOpacity(0.45);
