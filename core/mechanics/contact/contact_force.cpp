@@ -85,7 +85,8 @@ struct Meeting {
   /// At an equilibrium: done, slipped, or the next trial.
   std::optional<bool> judge(int tries) {
     const double off_N = solver.barForce(state) - goal_N;
-    if (off_N + goal_N > best_N) best_N = off_N + goal_N, bestAt_m = state.s;
+    // Past the goal a state is loosely converged only: what is borne is known below it.
+    if (off_N < 0 && off_N + goal_N > best_N) best_N = off_N + goal_N, bestAt_m = state.s;
     solver.met(off_N + goal_N);
     if (tight && std::abs(off_N) <= tolerance * goal_N) return true;
     indefinite = false;
