@@ -66,6 +66,16 @@ class Journey(unittest.TestCase):
         for name in r["files"]:
             self.assertTrue((out / name).exists(), name)
 
+    def test_demo_goes_from_nothing_to_pictures(self):
+        out = self.folder / "demo"
+        r = cli_json("demo", "--seed", 5, "--output", out, env={"DISPLAY": "", "WAYLAND_DISPLAY": ""})
+        self.assertTrue(r["solver"]["converged"])
+        self.assertIsNotNone(r["difference"])
+        self.assertIn("overlay-3d-oblique.png", r["files"])
+        for name in r["files"]:
+            self.assertTrue((out / "run" / name).exists(), name)
+        self.assertEqual((out / "patient-001/scene.json").read_bytes(), (self.patient / "scene.json").read_bytes())
+
     def test_same_seed_same_bytes(self):
         cli("phantom", "--cases", 1, "--seed", 5, "--output", self.folder / "again", "--quiet")
         for path in sorted(self.patient.rglob("*")):
