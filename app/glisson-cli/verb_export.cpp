@@ -1,8 +1,8 @@
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/private_folder.h"
 #include "diagnostics_json.h"
 #include "pipeline/export.h"
 #include "verbs.h"
@@ -10,36 +10,19 @@
 namespace glisson::cli {
 namespace {
 
-/// A folder of its own that goes when it is done with.
-struct Scratch {
-  std::filesystem::path path;
-  explicit Scratch(const std::filesystem::path& beside) {
-    std::error_code failed;
-    std::filesystem::create_directories(beside, failed);
-    std::string name = (beside / ".export-XXXXXX").string();
-    if (failed || mkdtemp(name.data()) == nullptr)
-      throw BadInput("the output folder cannot be written to; choose another with --output");
-    path = name;
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-};
-
 /// --strict: nothing is put into the output folder before it is known that there is no doubt.
 pipeline::Exported exportIfSound(pipeline::ExportRequest request, const Context& context) {
   const std::filesystem::path output = request.output;
-  const Scratch scratch(output);
-  request.output = scratch.path;
+  const PrivateFolder scratch;
+  request.output = scratch.path();
   pipeline::Exported done = pipeline::exportFiles(request, context.progress());
   refuseIfStrict(context, done.diagnostics, done.warnings);
   for (std::filesystem::path& f : done.files) {
-    const std::filesystem::path to = output / std::filesystem::relative(f, scratch.path);
-    std::filesystem::create_directories(to.parent_path());
-    std::filesystem::rename(f, to);
+    const std::filesystem::path to = output / std::filesystem::relative(f, scratch.path());
+    std::error_code failed;
+    std::filesystem::create_directories(to.parent_path(), failed);
+    if (!failed) std::filesystem::copy_file(f, to, std::filesystem::copy_options::overwrite_existing, failed);
+    if (failed) throw BadInput("the output folder cannot be written to; choose another with --output");
     f = to;
   }
   return done;

@@ -1,17 +1,15 @@
 #include "views/bar_actor.h"
 
 #include <vtkActor.h>
-#include <vtkCellArray.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkTransform.h>
 
 #include <algorithm>
 
 #include "render/rigid_bar.h"
+#include "views/mesh_data.h"
 
 namespace glisson::views {
 
@@ -30,24 +28,8 @@ anatomy::TriangleMesh meshOf(const tools::BarPlace& place) {
 }  // namespace
 
 BarActor::BarActor(const tools::BarPlace& place) {
-  const anatomy::TriangleMesh mesh = meshOf(place);
-  vtkNew<vtkPoints> points;
-  for (Eigen::Index n = 0; n < mesh.vertices_lps_mm.cols(); ++n)
-    points->InsertNextPoint(mesh.vertices_lps_mm.col(n).data());
-  vtkNew<vtkCellArray> cells;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    const vtkIdType corners[3] = {mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
-    cells->InsertNextCell(3, corners);
-  }
-  vtkNew<vtkPolyData> bare;
-  bare->SetPoints(points);
-  bare->SetPolys(cells);
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData(bare);
-  normals->SplittingOff();
-  normals->ConsistencyOff();
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(normals->GetOutputPort());
+  mapper->SetInputData(meshWithNormals(meshOf(place)));
   actor_->SetMapper(mapper);
   actor_->GetProperty()->SetColor(0.80, 0.82, 0.85);
   actor_->GetProperty()->SetSpecular(0.5);

@@ -8,7 +8,6 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
@@ -19,6 +18,7 @@
 #include <optional>
 
 #include "views/bar_actor.h"
+#include "views/mesh_data.h"
 #include "views/colour_map.h"
 
 namespace glisson::views {
@@ -38,24 +38,7 @@ struct Part {
 };
 
 void takeMesh(Part& part, const anatomy::TriangleMesh& mesh) {
-  vtkNew<vtkPoints> points;
-  points->SetNumberOfPoints(mesh.vertices_lps_mm.cols());
-  for (Eigen::Index n = 0; n < mesh.vertices_lps_mm.cols(); ++n)
-    points->SetPoint(n, mesh.vertices_lps_mm.col(n).data());
-  vtkNew<vtkCellArray> cells;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    const vtkIdType corners[3] = {mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t)};
-    cells->InsertNextCell(3, corners);
-  }
-  vtkNew<vtkPolyData> bare;
-  bare->SetPoints(points);
-  bare->SetPolys(cells);
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData(bare);
-  normals->SplittingOff();
-  normals->ConsistencyOff();
-  normals->Update();
-  part.data->ShallowCopy(normals->GetOutput());
+  part.data->ShallowCopy(meshWithNormals(mesh));
 }
 
 void takePoints(Part& part, const Eigen::Matrix3Xd& at, double size_px) {
