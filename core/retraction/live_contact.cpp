@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/contact/contact_solver.h"
 #include "retraction/rigid_contact.h"
 
 namespace glisson::retraction {
 namespace {
 
+using mechanics::ContactSolver;
+
 constexpr double mmPerM = 1e3;
 constexpr double softest_N_mm = 0.02;   ///< rise of the force with travel that is counted on, at least
-constexpr double slipFall = 0.75;       ///< of the largest force, past which the bar slips
-constexpr double slipTravel_mm = 12.0;  ///< past the largest force, without reaching it again
 constexpr double farthest_mm = 200.0;
 constexpr double met = 3e-3;            ///< of the force asked for
 constexpr double close = 0.2;           ///< of the force asked for: from there on the bar waits for the liver, and goes
@@ -50,8 +51,8 @@ double ContactRetraction::alongFor(double force_N) {
     slips_ = false;
   }
   slips_ = slips_ || along_mm_ > farthest_mm ||
-           (still && along_mm_ > bestAt_mm_ + 1.0 && forceAlong_N_ < slipFall * best_N_) ||
-           along_mm_ > bestAt_mm_ + slipTravel_mm;
+           (still && along_mm_ > bestAt_mm_ + 1.0 && forceAlong_N_ < ContactSolver::slipFall * best_N_) ||
+           along_mm_ > bestAt_mm_ + mmPerM * ContactSolver::slipTravel_m;
   if (slips_) return along_mm_;
   const double off_N = force_N - forceAlong_N_;
   if (std::abs(off_N) <= met * std::abs(force_N)) return along_mm_;
