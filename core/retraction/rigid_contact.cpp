@@ -20,6 +20,7 @@ namespace {
 constexpr double mmToM = 1e-3;
 constexpr double leastFraction = 0.1;  ///< of a cell, for it to be one
 constexpr double sample_mm = 1.5;      ///< largest spacing of the samples of the surface
+constexpr double sampleOfRadius = 0.3; ///< the same, of the bar's: none slips between them
 constexpr double rind_mm = 3.0;        ///< depth of the layer that stands for the capsule
 constexpr double behind_mm = 400.0;    ///< from where the bar comes
 
@@ -29,8 +30,13 @@ struct Samples {
   std::vector<const SurfaceFace*> face;  ///< of a model without smooth body
 };
 
-/// The triangles of the smooth surface, gathered cube by cube.
-Samples samplesOf(const SmoothBody& smooth) {
+/// Largest spacing of the samples for a bar, mm.
+double spacingFor(const Retractor& bar) {
+  return std::min(sample_mm, sampleOfRadius * bar.diameter_mm / 2);
+}
+
+/// The triangles of the smooth surface, gathered in cubes of edge `spacing_mm`.
+Samples samplesOf(const SmoothBody& smooth, double spacing_mm) {
   const mechanics::TriangleSurface surface = smooth.surface();
   Samples s;
   std::unordered_map<std::int64_t, std::size_t> at;
@@ -39,7 +45,7 @@ Samples samplesOf(const SmoothBody& smooth) {
                           &b = surface.vertices[static_cast<std::size_t>(t[1])],
                           &c = surface.vertices[static_cast<std::size_t>(t[2])];
     const Eigen::Vector3d normal = 0.5 * (b - a).cross(c - a), middle = (a + b + c) / 3;
-    const Eigen::Vector3i cube = (middle / sample_mm).array().floor().cast<int>();
+    const Eigen::Vector3i cube = (middle / spacing_mm).array().floor().cast<int>();
     const std::int64_t key =
         (static_cast<std::int64_t>(cube.x() + 4096) << 32) | ((cube.y() + 4096) << 14) | (cube.z() + 4096);
     const auto [entry, fresh] = at.try_emplace(key, s.p_mm.size());
@@ -60,13 +66,13 @@ Samples samplesOf(const SmoothBody& smooth) {
   return s;
 }
 
-/// The outer faces of the cells, each in squares of at most 1.5 mm and half an edge.
-Samples samplesOf(const Body& body) {
+/// The outer faces of the cells, each in squares of at most `spacing_mm` and half an edge.
+Samples samplesOf(const Body& body, double spacing_mm) {
   Samples s;
   const Eigen::Vector3d h = 1e3 * body.mesh().h_m();
   for (const SurfaceFace& f : body.surface()) {
     const int axis = f.face.side / 2, first = (axis + 1) % 3, second = (axis + 2) % 3;
-    const auto parts = [&](int a) { return std::max(2, static_cast<int>(std::ceil(h[a] / sample_mm))); };
+    const auto parts = [&](int a) { return std::max(2, static_cast<int>(std::ceil(h[a] / spacing_mm))); };
     const int m = parts(first), n = parts(second);
     for (int i = 0; i < m; ++i)
       for (int j = 0; j < n; ++j) {
@@ -344,7 +350,7 @@ ContactScene contactScene(const Body& body, const Model& model, const Setup& set
   mechanics::ContactProblem& p = out.problem;
   p.problem.body = cutCells(body, model, out.layers);
   const Eigen::Vector3d shift_m = out.layers.cast<double>().cwiseProduct(body.voxels().h_m);
-  Samples samples = model.smooth ? samplesOf(*model.smooth) : samplesOf(body);
+  Samples samples = model.smooth ? samplesOf(*model.smooth, spacingFor(bar)) : samplesOf(body, spacingFor(bar));
   for (std::size_t i = 0; i < samples.p_mm.size(); ++i)
     p.surface.push_back({body.toLocal_m(samples.p_mm[i]) + shift_m, body.vectorToLocal(samples.normal[i]),
                          1e-6 * samples.area_mm2[i]});

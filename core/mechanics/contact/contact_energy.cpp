@@ -13,14 +13,9 @@ namespace glisson::mechanics {
 namespace {
 
 constexpr std::size_t chunk = 1024;
-constexpr double reach_m = 0.02;  ///< samples within this of the bar are looked at, until something has moved as far
-/// The barrier's stiffness: 20 kPa/mm for tissue, whose mean modulus is 3 to 20 kPa. For softer and stiffer bodies it
-/// goes with the modulus, so that their answers are the same at forces in proportion.
-constexpr double ofTissue_Pa_m = 2e7, softTissue_Pa = 3e3, perStiffBody_1_m = 1e3;
-
-double barrierStiffness(double modulus_Pa) {
-  return std::max(ofTissue_Pa_m * std::min(1.0, modulus_Pa / softTissue_Pa), perStiffBody_1_m * modulus_Pa);
-}
+/// The barrier's stiffness over the body's mean modulus, 20 kPa/mm at 6 kPa: bodies that differ in scale only have the
+/// same answers at forces in proportion.
+constexpr double perModulus_1_m = 1e4 / 3;
 
 double meanModulus(const VoxelBody& body) {
   double sum = 0, count = 0;
@@ -43,51 +38,13 @@ ContactEnergy::ContactEnergy(const SolidHierarchy& hierarchy, std::vector<Surfac
       pressures_(problem.pressures),
       law_(problem.law), bar_(problem.bar) {
   barrier_.width_m = options.zone_m;
-  barrier_.kappa_Pa_m = barrierStiffness(meanModulus(problem.problem.body)) * 1e-3 / options.zone_m;
+  barrier_.kappa_Pa_m = perModulus_1_m * meanModulus(problem.problem.body) * 1e-3 / options.zone_m;
   if (!pressures_.empty())
     potential_ = potentialOf(VoxelMesh(problem.problem.body), pressures_, problem.problem.supports.fixations);
-  if (bar_) barrier_.guard_m = 0.4 * bar_->radius_m;
-  if (bar_) bringToTouch();
-}
-
-void ContactEnergy::bringToTouch() {
-  constexpr double far_m = 0.5;
-  const auto nearest = [&](double s) {
-    double g = std::numeric_limits<double>::infinity();
-    for (const SurfaceSample& p : surface_) g = std::min(g, gapTo(*bar_, p.p_m, s).g_m);
-    return g;
-  };
-  // Sphere tracing: a bar moved by no more than its distance from the surface cannot pass it.
-  double s = -far_m;
-  for (int step = 0; step < 1000 && s < far_m; ++step) {
-    const double g = nearest(s);
-    if (g < 1e-7) {
-      bar_->shift(s * bar_->hoist);
-      return;
-    }
-    s += g;
-  }
-  throw BadInput(
-      "no contact: the retractor moved along its hoist does not meet the surface; move its point onto the surface");
-}
-
-Eigen::Vector3d ContactEnergy::place(std::size_t sample, const State& at) const {
-  const SolidLevel& level = hierarchy_.level(top_);
-  return surface_[sample].p_m + level.points[sample].at(at.u.data(), level.nodes());
-}
-
-void ContactEnergy::moveBar(const Eigen::Vector3d& by_m) {
-  bar_->shift(by_m);
-  near_.barMoved_m += by_m.norm();
-}
-
-Eigen::Vector3d ContactEnergy::force(const State& at) const {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const std::uint32_t p : near(at)) {
-    const Gap gap = gapTo(*bar_, place(p, at), at.s);
-    if (barrier_.acts(gap.g_m)) sum -= surface_[p].area_m2 * barrier_.at(gap.g_m).first * gap.n;
-  }
-  return sum;
+  if (!bar_) return;
+  barrier_.guard_m = 0.4 * bar_->radius_m;
+  bringToTouch();
+  findNeighbours();
 }
 
 void ContactEnergy::setLoads(std::size_t top, const std::vector<double>& loads) {
@@ -100,33 +57,6 @@ void ContactEnergy::setLoads(std::size_t top, const std::vector<double>& loads) 
     for (const float w : p.weight) sum += std::abs(static_cast<double>(w));
     spread_ = std::max(spread_, sum);
   }
-}
-
-double ContactEnergy::movedSince(const State& at) const {
-  if (near_.top != top_ || near_.at.u.size() != at.u.size()) return std::numeric_limits<double>::infinity();
-  const std::size_t n = at.u.size() / 3;
-  const double *a = at.u.data(), *b = near_.at.u.data();
-  double largest = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double x = a[i] - b[i], y = a[n + i] - b[n + i], z = a[2 * n + i] - b[2 * n + i];
-    largest = std::max(largest, x * x + y * y + z * z);
-  }
-  return spread_ * std::sqrt(largest) + std::abs(at.s - near_.at.s) + near_.barMoved_m;
-}
-
-const std::vector<std::uint32_t>& ContactEnergy::near(const State& at) const {
-  if (movedSince(at) < reach_m - barrier_.width_m) return near_.samples;
-  gaps_.resize(surface_.size());
-  parallelChunks(surface_.size(), chunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) gaps_[p] = gapTo(*bar_, place(p, at), at.s);
-  });
-  near_.top = top_;
-  near_.at = at;
-  near_.barMoved_m = 0;
-  near_.samples.clear();
-  for (std::size_t p = 0; p < surface_.size(); ++p)
-    if (gaps_[p].g_m < reach_m) near_.samples.push_back(static_cast<std::uint32_t>(p));
-  return near_.samples;
 }
 
 bool ContactEnergy::evaluate(const State& at, std::optional<double> force_N, bool travels, Value& value) const {
@@ -302,31 +232,6 @@ std::vector<FollowerStiffness> ContactEnergy::followers(const State& at) const {
     }
   });
   return out;
-}
-
-bool ContactEnergy::passes(const State& from, const State& to) const {
-  if (!bar_) return true;
-  const double shift = std::abs(to.s - from.s);
-  // On a straight way nothing moves further from the state of near_ than at one of its ends.
-  const std::vector<std::uint32_t>& close = near(to);
-  const bool all = movedSince(from) >= reach_m;
-  const std::size_t count = all ? surface_.size() : close.size();
-  std::vector<char> bad((count + chunk - 1) / chunk, 0);
-  parallelChunks(count, chunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t p = all ? i : close[i];
-      const Eigen::Vector3d a = place(p, from), b = place(p, to);
-      const double way = (b - a).norm() + shift;
-      if (way < bar_->radius_m) continue;  // the ends of the step are judged by evaluate()
-      if (gapTo(*bar_, a, from.s).g_m > way) continue;
-      const int parts = static_cast<int>(std::ceil(2 * way / bar_->radius_m));
-      for (int part = 1; part < parts; ++part) {
-        const double t = static_cast<double>(part) / parts;
-        if (!barrier_.feasible(gapTo(*bar_, a + t * (b - a), from.s + t * (to.s - from.s)).g_m)) bad[begin / chunk] = 1;
-      }
-    }
-  });
-  return std::none_of(bad.begin(), bad.end(), [](char c) { return c != 0; });
 }
 
 std::vector<PointStiffness> ContactEnergy::stiffness(const State& at) const {

@@ -41,6 +41,8 @@ class ContactEnergy {
   bool unbalanced(const State& at, Value& value) const;
   /// True where no sample passes through the bar on the straight way from one state to the next.
   bool passes(const State& from, const State& to) const;
+  /// True if the bar lies between neighbouring samples of the surface, which have been drawn apart: it has cut into it.
+  bool cuts(const State& at) const;
   std::vector<PointStiffness> stiffness(const State& at) const;
   std::vector<FollowerStiffness> followers(const State& at) const;
   /// Share of the loads that follow their faces; 1 at first.
@@ -74,6 +76,8 @@ class ContactEnergy {
   void forTriangles(const State& at, const F& f) const;
   /// The bar is brought from behind to its first touch.
   void bringToTouch();
+  /// The samples around each on the surface at rest, that look the same way.
+  void findNeighbours();
   /// The samples that can be in contact in this state: all others are out of the barrier's zone.
   const std::vector<std::uint32_t>& near(const State& at) const;
   /// How far samples and bar can have moved towards each other since `near_` was chosen, from above; m.
@@ -81,6 +85,7 @@ class ContactEnergy {
 
   const SolidHierarchy& hierarchy_;
   std::vector<SurfaceSample> surface_;
+  std::vector<std::vector<std::uint32_t>> neighbours_;  ///< of each sample on the surface, where there is a bar
   std::vector<BedSample> bed_;            ///< points behind those of the surface
   std::vector<Tether> tethers_;           ///< points behind those of the bed
   std::vector<FollowerFace> pressures_;   ///< four points each behind those of the tethers

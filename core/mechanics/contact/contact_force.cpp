@@ -9,6 +9,7 @@ namespace {
 using State = ContactSolver::State;
 
 constexpr int meetingTries = 40;  ///< travels tried for one force
+constexpr double snap = 0.01;      ///< of the force, by which it jumps where the body snaps
 
 struct Meeting {
   /// An equilibrium on one side of the force.
@@ -23,7 +24,7 @@ struct Meeting {
   std::optional<Side> below, above;
   State trial;
   double step = ContactSolver::firstStep_m, best_N = 0, bestAt_m = 0;
-  bool indefinite = false, tight = false;
+  bool tight = false, walkedBack = false;
   int freely = 2;
 
   Meeting(ContactSolver& s, State& at, double tol, NewtonRun& r)
@@ -35,16 +36,13 @@ struct Meeting {
     run = solver.energy().passes(state, next)
               ? solver.converge(next, {}, tight ? tolerance : ContactSolver::pathTolerance, 60)
               : NewtonRun{};
-    indefinite = indefinite || run.indefinite;
     if (run.converged) state = std::move(next);
     return run.converged;
   }
 
   /// After a travel without an answer: a verdict, or closer to where it last went well.
   std::optional<bool> closer() {
-    // The body gives way and the force has nowhere to rise: the bar slips.
-    if (std::abs(trial.s - state.s) < ContactSolver::shortestStep_m)
-      return indefinite && below && !above && solver.slips(best_N);
+    if (std::abs(trial.s - state.s) < ContactSolver::shortestStep_m) return false;
     const double s = 0.5 * (trial.s + state.s);
     trial = state;
     trial.s = s;
@@ -55,6 +53,15 @@ struct Meeting {
   /// Between two sides: done, hopeless, or the next trial.
   std::optional<bool> between(int tries) {
     const Side &a = *below, &b = *above;
+    const bool close = std::abs(b.state.s - a.state.s) < 0.1 * ContactSolver::shortestStep_m;
+    if (close && b.off_N - a.off_N > snap * goal_N && !walkedBack) {
+      // The body snaps between the two: from there on its new place is followed back to the force.
+      walkedBack = true;
+      below.reset();
+      trial = state = b.state;
+      trial.s -= step = ContactSolver::shortestStep_m;
+      return {};
+    }
     if (std::abs(b.state.s - a.state.s) < 1e-9) return false;
     if (freely > 0 && std::abs(b.state.s - a.state.s) < ContactSolver::firstStep_m) {
       // So close the force itself can be given: that converges faster, if it stays near the two.
@@ -89,7 +96,6 @@ struct Meeting {
     if (off_N < 0 && off_N + goal_N > best_N) best_N = off_N + goal_N, bestAt_m = state.s;
     solver.met(off_N + goal_N);
     if (tight && std::abs(off_N) <= tolerance * goal_N) return true;
-    indefinite = false;
     if (!tight && (off_N < 0 ? above : below)) {
       tight = true;
       below.reset();

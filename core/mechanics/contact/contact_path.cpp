@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <sstream>
 
@@ -10,44 +11,60 @@ namespace {
 using State = ContactSolver::State;
 
 constexpr double farthest_m = 0.2;  ///< of travel
+/// Where the body snaps and no short step is possible, longer ones may lead to where it bears the bar again.
+constexpr std::array<double, 2> leap_m = {3e-3, 6e-3};
+constexpr double base_m = 2e-3;     ///< of travel, that a leap is predicted from
 constexpr double fallen = 0.98;     ///< of the largest force, where no step is possible: the bar slips
 
 struct Path {
   ContactSolver& solver;
   State& state;
+  bool first;
   double goal_N, before_m, end_m;  ///< before_m: travel counts from the first force
   double step = ContactSolver::firstStep_m, last_N = 0, best_N = 0, bestAt_m = 0;
   State before, reached;
   bool has = false;  ///< `reached` bears the force; the path goes on to its proof
   bool extrapolate = false, indefinite = false;
+  std::size_t leaps = 0, steps = 0;
 
-  Path(ContactSolver& s, State& at)
+  Path(ContactSolver& s, State& at, PathKind kind)
       : solver(s),
         state(at),
-        goal_N(s.problem().force_N ? s.options().proof * *s.problem().force_N : 0),
+        first(kind == PathKind::First),
+        goal_N(s.problem().force_N ? (first ? s.options().proof : 1.0) * *s.problem().force_N : 0),
         before_m(0.5 * s.options().zone_m),
         end_m(s.problem().travel_m ? *s.problem().travel_m - before_m : std::numeric_limits<double>::infinity()),
         last_N(s.barForce(at)),
         best_N(last_N),
         bestAt_m(at.s),
         before(at) {
-    solver.out().path.push_back({state.s + before_m, last_N});
+    if (first) solver.out().path.push_back({state.s + before_m, last_N});
   }
 
   bool ended(ContactOutcome outcome, bool exceeded) {
     ContactSolution& out = solver.out();
     out.outcome = outcome;
-    out.capacity_N = std::max(out.capacity_N, best_N);
+    // What finer cells bear counts, if they do not bear what was asked for.
+    out.capacity_N = first || outcome == ContactOutcome::Reached ? std::max(out.capacity_N, best_N) : best_N;
     out.capacityExceeded = exceeded;
     return outcome == ContactOutcome::Reached;
+  }
+
+  /// What the next state is predicted from, beside the last one.
+  const State& base() const {
+    if (leaps == 0) return before;
+    for (auto earlier = solver.trail().rbegin(); earlier != solver.trail().rend(); ++earlier)
+      if (earlier->s <= state.s - base_m) return *earlier;
+    return before;
   }
 
   State predicted() const {
     double target = state.s + step;
     if (target > end_m - 1e-9) target = end_m;
     State trial = state;
-    const double factor = extrapolate && state.s > before.s ? (target - state.s) / (state.s - before.s) : 0;
-    for (std::size_t i = 0; factor > 0 && i < trial.u.size(); ++i) trial.u[i] += factor * (state.u[i] - before.u[i]);
+    const State& from = base();
+    const double factor = extrapolate && state.s > from.s ? (target - state.s) / (state.s - from.s) : 0;
+    for (std::size_t i = 0; factor > 0 && i < trial.u.size(); ++i) trial.u[i] += factor * (state.u[i] - from.u[i]);
     trial.s = target;
     return trial;
   }
@@ -62,11 +79,19 @@ struct Path {
 
   /// After a step that failed: a verdict, or a shorter step.
   std::optional<bool> shorten() {
-    step *= 0.6;
-    if (step < 1.5e-3) extrapolate = false;
-    if (step >= ContactSolver::shortestStep_m) return {};
-    // Where not even the first step was possible, nothing is known of what the place bears.
-    const bool gave = solver.out().path.size() > 1 && (indefinite || last_N < fallen * best_N);
+    if (leaps == 0) {
+      step *= 0.6;
+      if (step < 1.5e-3) extrapolate = false;
+      if (step >= ContactSolver::shortestStep_m) return {};
+    }
+    if (!has && !solver.cuts() && steps > 0 && leaps < leap_m.size()) {
+      step = leap_m[leaps++];
+      extrapolate = true;
+      return {};
+    }
+    // Where not even the first step was possible, nothing is known of what the place bears; nor where the coarse cells
+    // bore more, and the force has not fallen on these.
+    const bool gave = steps > 0 && !solver.cuts() && ((first && indefinite) || last_N < fallen * best_N);
     return ended(has                  ? ContactOutcome::Reached
                  : best_N > 0 && gave ? ContactOutcome::Slips
                                       : ContactOutcome::Stopped,
@@ -79,8 +104,12 @@ struct Path {
     before = std::move(state);
     state = std::move(trial);
     extrapolate = true;
+    if (leaps > 0) step = ContactSolver::firstStep_m;
+    leaps = 0;
     ContactSolution& out = solver.out();
-    out.path.push_back({state.s + before_m, force_N});
+    if (first) out.path.push_back({state.s + before_m, force_N});
+    else solver.met(force_N);
+    ++steps;
     out.largestDrop_N = std::max(out.largestDrop_N, last_N - force_N);
     last_N = force_N;
     std::ostringstream what;
@@ -116,8 +145,8 @@ struct Path {
 
 }  // namespace
 
-bool followPath(ContactSolver& solver, State& state) {
-  Path path(solver, state);
+bool followPath(ContactSolver& solver, State& state, PathKind kind) {
+  Path path(solver, state, kind);
   while (state.s < farthest_m) {
     State trial = path.predicted();
     NewtonRun run;

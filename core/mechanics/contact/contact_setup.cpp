@@ -225,7 +225,7 @@ void describe(const SolidHierarchy& hierarchy, const ContactEnergy& energy, cons
   const std::size_t n = level.nodes();
   // Travel counts from the first force, where the barrier begins: half its width before the surfaces meet.
   const double before_m = 0.5 * energy.barrier().width_m;
-  out.travel_m = energy.hasBar() ? at.s + before_m : 0;
+  out.travel_m = energy.hasBar() ? std::max(0.0, at.s + before_m) : 0;
   out.smallestJ = level.smallestVolumeRatio(at.u.data());
   describeContact(energy, kept, at, problem.surface.size(), out);
   if (energy.hasBar()) {

@@ -12,7 +12,7 @@
 namespace glisson::mechanics {
 namespace {
 
-constexpr int mostOnFinest = 300;        ///< iterations there, once the path is done
+constexpr int mostOnFinest = 500;        ///< iterations there, once the path is done
 
 /// A bed holds a body that lies on it, and tethers one that hangs on them, for the question whether anything holds it.
 void requireHeld(const ContactProblem& problem) {
@@ -71,11 +71,13 @@ ContactSolver::ContactSolver(const ContactProblem& problem, const ContactOptions
 NewtonRun ContactSolver::converge(State& state, std::optional<double> force_N, double tolerance, int limit) {
   const bool finest = energy_.top() == 0;
   if (finest && energy_.top() < pathLevel(hierarchy_, problem_) && spent_ > mostOnFinest) return {};
-  const NewtonRun run = minimise(hierarchy_, energy_, state, {force_N, tolerance, limit}, progress_);
+  NewtonRun run = minimise(hierarchy_, energy_, state, {force_N, tolerance, limit}, progress_);
   out_.newton += run.iterations;
   if (finest) spent_ += run.iterations;
   out_.inner += run.inner;
   lastResidual_ = run.residual;
+  if (run.converged) cuts_ = energy_.cuts(state);
+  run.converged = run.converged && !cuts_;
   return run;
 }
 
@@ -113,6 +115,24 @@ bool ContactSolver::meetForceFromTrail(State& state, double tolerance, NewtonRun
   return false;
 }
 
+/// The path once more, on the present cells, from the nearest state before its end that is an equilibrium on them.
+bool ContactSolver::followAgain(State& state, double tolerance, NewtonRun& run) {
+  for (std::vector<State> behind = std::move(trail_); !behind.empty();) {
+    State start = std::move(behind.back());
+    behind.pop_back();
+    run = converge(start, {}, pathTolerance, 60);
+    if (!run.converged) continue;
+    trail_ = std::move(behind);
+    const bool reached = followPath(*this, start, PathKind::Again);
+    state = std::move(start);
+    if (!reached) return false;
+    if (problem_.force_N) return meetForce(*this, state, tolerance, run);
+    run = converge(state, {}, tolerance, 80);
+    return run.converged;
+  }
+  return false;
+}
+
 /// From the end of the path to the answer on the finest cells.
 bool ContactSolver::finish(State& state) {
   for (std::size_t l = energy_.top();; --l) {
@@ -132,7 +152,8 @@ bool ContactSolver::finish(State& state) {
     } else {
       // The coarse cells bore more than these do, or the force hardly rises with travel.
       out_.outcome = ContactOutcome::Stopped;
-      if (!problem_.force_N || !meetForceFromTrail(state, tolerance, run)) {
+      const bool met = problem_.force_N && meetForceFromTrail(state, tolerance, run);
+      if (!met && (out_.outcome != ContactOutcome::Stopped || !followAgain(state, tolerance, run))) {
         out_.solution.report.residual = run.residual;
         return false;
       }
@@ -172,8 +193,11 @@ bool ContactSolver::loadInSteps(State& state, double tolerance) {
 bool ContactSolver::moveBar(State& state) {
   state.s = -0.5 * options_.zone_m;
   const bool loaded = !problem_.pressures.empty() || !loads_[energy_.top()].empty();
-  if (loaded && !loadInSteps(state, pathTolerance)) return false;
-  return followPath(*this, state) && finish(state);
+  if (loaded && !loadInSteps(state, pathTolerance)) {
+    out_.outcome = ContactOutcome::LoadsNotBorne;
+    return false;
+  }
+  return followPath(*this, state, PathKind::First) && finish(state);
 }
 
 ContactSolution ContactSolver::solve() {
@@ -187,7 +211,7 @@ ContactSolution ContactSolver::solve() {
     good = moveBar(state);
   } else {
     good = loadInSteps(state, options_.tolerance);
-    out_.outcome = good ? ContactOutcome::Reached : ContactOutcome::Stopped;
+    out_.outcome = good ? ContactOutcome::Reached : ContactOutcome::LoadsNotBorne;
   }
   // What was reached is told on the finest cells.
   while (energy_.top() > 0 && !options_.pathOnly) {
@@ -196,10 +220,11 @@ ContactSolution ContactSolver::solve() {
     useLevel(l);
   }
   describe(hierarchy_, energy_, problem_, kept_, state, out_);
-  // Cells that turn inside out before the force is borne: the body gives way under the bar.
-  if (out_.outcome == ContactOutcome::Stopped && problem_.bar && problem_.force_N && out_.smallestJ <= 0 &&
-      metOnFinest_ > 0 && metOnFinest_ < *problem_.force_N)
-    slips(metOnFinest_);
+  if (out_.outcome == ContactOutcome::Stopped && problem_.bar && out_.smallestJ <= 0) {
+    out_.outcome = ContactOutcome::Folds;
+    if (problem_.force_N && metOnFinest_ < *problem_.force_N) out_.capacity_N = metOnFinest_;
+  }
+  if (out_.outcome == ContactOutcome::Stopped && cuts_) out_.outcome = ContactOutcome::Cuts;
   SolveReport& report = out_.solution.report;
   report.kind = energy_.hasPotential() ? "newton-multigrid-pcg" : "newton-multigrid-gmres";
   report.status = good ? SolveStatus::Converged : SolveStatus::StoppedAtLimit;

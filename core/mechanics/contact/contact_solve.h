@@ -72,9 +72,12 @@ struct ContactOptions {
 };
 
 enum class ContactOutcome {
-  Reached,   ///< the force or the travel asked for
-  Slips,     ///< the force falls with travel below what was asked for: no equilibrium beyond capacity_N
-  Stopped    ///< no convergence, no reason found
+  Reached,        ///< the force or the travel asked for
+  Slips,          ///< the force falls with travel below what was asked for: no equilibrium beyond capacity_N
+  Folds,          ///< the surface beside the bar folds, cells turn inside out: beyond capacity_N nothing is known
+  Cuts,           ///< the bar has drawn the surface apart and cut into it: the cells are too coarse, or the force too large
+  LoadsNotBorne,  ///< no equilibrium under the loads, with the bar where it touches
+  Stopped         ///< no convergence, no reason found
 };
 
 struct PathStep {

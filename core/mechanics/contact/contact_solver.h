@@ -34,6 +34,9 @@ class ContactSolver {
   void leaveBehind(const State& state) { trail_.push_back(state); }
   /// A force that an equilibrium bore on the present cells.
   void met(double force_N);
+  /// Whether the last state that was found was refused, as the bar cut into the surface there.
+  bool cuts() const { return cuts_; }
+  const std::vector<State>& trail() const { return trail_; }
   /// Notes what the place bears at most; false.
   bool slips(double capacity_N);
 
@@ -41,6 +44,7 @@ class ContactSolver {
   void useLevel(std::size_t l) { energy_.setLoads(l, loads_[l]); }
   bool moveBar(State& state);
   bool meetForceFromTrail(State& state, double tolerance, NewtonRun& run);
+  bool followAgain(State& state, double tolerance, NewtonRun& run);
   bool finish(State& state);
   bool loadInSteps(State& state, double tolerance);
 
@@ -53,17 +57,19 @@ class ContactSolver {
   ContactSolution out_;
   std::vector<std::vector<double>> loads_;  ///< per level
   double metOnFinest_ = 0;                  ///< largest force that an equilibrium on the finest cells bore
+  bool cuts_ = false;
   int spent_ = 0;                           ///< iterations on the finest cells
   double lastResidual_ = 0;                 ///< of the last equilibrium tried
   std::vector<State> trail_;                ///< of the path up to its end, of the level that is worked on
 };
 
 /// Travel in steps from `state` until force or travel is reached (true), or the force falls or no step is possible. Writes
-/// path, outcome and capacity of solver.out().
-bool followPath(ContactSolver& solver, ContactSolver::State& state);
+/// outcome and capacity of solver.out(), and its path where this is the first time.
+enum class PathKind { First, Again };
+bool followPath(ContactSolver& solver, ContactSolver::State& state, PathKind kind);
 
 /// The travel at which the bar bears the force, with the travel prescribed: that stays well posed where the force hardly
-/// rises any more, and where it falls. False where no step is possible or the force has fallen for good (then
+/// rises any more, and where it falls. False where no step is possible or the force has fallen for good (only then
 /// solver.out() says that the bar slips).
 bool meetForce(ContactSolver& solver, ContactSolver::State& state, double tolerance, NewtonRun& run);
 
