@@ -16,6 +16,7 @@
 #include "image/io.h"
 #include "pipeline/detail/build_model.h"
 #include "pipeline/detail/needs.h"
+#include "pipeline/detail/outcomes.h"
 #include "pipeline/detail/outputs.h"
 #include "pipeline/detail/record.h"
 
@@ -186,25 +187,6 @@ retraction::LinearGap gapOf(const RunResult& r, const retraction::Result& linear
   return gap;
 }
 
-void tellOfSlips(RunResult& r) {
-  for (const bool atlas : {false, true}) {
-    const retraction::Result* result = atlas ? (r.atlas ? &*r.atlas : nullptr) : &r.primary;
-    if (result == nullptr || !result->contact || !result->contact->slipped) continue;
-    const retraction::RigidContact& c = *result->contact;
-    if (!(c.asked_N > 0.0)) {
-      std::ostringstream t;
-      t << "the body gives way under the bar (" << wordOf(atlas) << " stiffness): after " << c.travel_mm
-        << " mm the force falls, and no further travel is found; " << c.capacity_N << " N was the most it bore";
-      r.warnings.push_back(t.str());
-      continue;
-    }
-    r.diagnostics.add(DiagnosticCode::RetractorSlips, {{"capacity_N", c.capacity_N},
-                                                       {"travel_mm", c.travel_mm},
-                                                       {"stiffness", std::string(wordOf(atlas))},
-                                                       {"asked_N", c.asked_N}});
-  }
-}
-
 bool isAnswer(const retraction::Result& result) {
   return result.solver.converged() && (result.drawable || result.kinematics == retraction::Kinematics::Linear);
 }
@@ -372,7 +354,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     r.linear = std::move(linear);
   });
 
-  tellOfSlips(r);
+  detail::tellOfOutcomes(r);
   steps.run("linear-gap", [&](const Progress& p) {
     retraction::judgeByGap(r.model, setup, r.landmarks_mm, r.primary, p.part(0.0, r.atlas ? 0.5 : 1.0));
     if (r.atlas && detail::sameStiffness(r.model, atlasModel))

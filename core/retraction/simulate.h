@@ -36,13 +36,26 @@ struct Model {
 /// body is not between 0.03 and 0.6 m long and checkSize is set.
 Model makeModel(image::ScalarVolume youngs_kPa, double poisson, Density density, bool checkSize);
 
+/// How a run of the rigid bar ended.
+enum class BarOutcome {
+  Reached,        ///< the force or the travel asked for
+  Slips,          ///< the liver does not bear what was asked for at this place
+  Folds,          ///< cells of the surface turn inside out; beyond the capacity nothing is known
+  Cuts,           ///< the bar cuts into the surface, whose cells it has drawn apart
+  LoadsNotBorne,  ///< no equilibrium under the other loads, before the bar moves
+  Stopped         ///< no convergence, no reason found
+};
+
 /// What the rigid bar and the liver do to each other at the end, mm, N, kPa, LPS.
 struct RigidContact {
+  BarOutcome outcome = BarOutcome::Reached;
   double travel_mm = 0.0;             ///< of the bar from its first touch, along the hoist
   double capacity_N = 0.0;            ///< largest force met on the way
   bool capacityExceeded = false;      ///< the force fell beyond it
   bool slipped = false;               ///< what was asked for is more than the liver bears at this place
   double asked_N = 0.0;               ///< force asked for; 0 where the travel was
+  double asked_mm = 0.0;              ///< travel asked for; 0 where the force was
+  double moved_mm = 0.0;              ///< along the hoist, from the place given to the first touch
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();    ///< of the bar on the liver
   Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();  ///< about the bar's centre
   double area_mm2 = 0.0, footprint_mm2 = 0.0;  ///< of the surface that touches: as it is, and seen along the hoist
