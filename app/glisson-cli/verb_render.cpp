@@ -33,7 +33,7 @@ void readSize(const std::string& text, pipeline::PictureOptions& o) {
 void addRender(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("render", "draw the pictures of a run again: other cameras, palettes or slices");
   auto a = std::make_shared<RenderArguments>();
-  verb->add_option("run", a->run, "folder of the run")->required();
+  verb->add_option("run", a->run, "folder of the run, or its run.json")->required();
   verb->add_option("--camera", a->cameras,
                    "anterior, posterior, left, right, superior, inferior, oblique, or --camera=azimuth,elevation in "
                    "degrees; may be given several times");
@@ -52,15 +52,17 @@ void addRender(CLI::App& app, Context& context) {
       for (const std::string& camera : a->cameras) o.cameras.push_back(pipeline::cameraFromText(camera));
       readSize(a->size, o);
       o.dpi = a->dpi;
-      if (const auto record = a->run / "run.json"; std::filesystem::exists(record))
+      const bool byRecord = std::filesystem::is_regular_file(a->run);
+      const std::filesystem::path run = byRecord ? a->run.parent_path() : a->run;
+      if (const auto record = pipeline::recordOf(a->run); std::filesystem::is_regular_file(record))
         for (const std::string& name : pipeline::filesOfAnotherRun(record))
           if (name == pipeline::pictureFileName)
             throw BadInput("the pictures' data in this folder are not those of its run.json: another run has written "
                            "into it; run the scene again into a folder of its own");
-      const pipeline::PictureData data = pipeline::readPictureFile(a->run / pipeline::pictureFileName);
+      const pipeline::PictureData data = pipeline::readPictureFile(run / pipeline::pictureFileName);
       if (!data.scene.valid)
         throw BadInput("this run did not converge, or gave no deformation: it is not drawn; see run.json");
-      const std::filesystem::path folder = context.output.empty() ? a->run : context.output;
+      const std::filesystem::path folder = context.output.empty() ? run : context.output;
       std::filesystem::create_directories(folder);
       // Slices alone need no OpenGL, so it is not started for them.
       std::vector<std::filesystem::path> files;

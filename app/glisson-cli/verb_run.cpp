@@ -24,8 +24,9 @@ std::string summary(const pipeline::RunResult& r) {
     << "strain      max " << p.max_strain << ", 95 % below " << p.p95_strain << "; largest rotation "
     << p.max_rotation_deg << " deg\n";
   if (p.contact)
-    t << "bar         travels " << p.contact->travel_mm << " mm and bears " << p.contact->force_N.norm() << " N over "
-      << p.contact->footprint_mm2 << " mm2" << (p.contact->slipped ? ", then slips" : "") << "\n";
+    t << "bar         travels " << p.contact->travel_mm << " mm and bears " << p.contact->force_N.dot(p.contact->hoist)
+      << " N along its hoist (resultant " << p.contact->force_N.norm() << " N) over " << p.contact->footprint_mm2
+      << " mm2 seen along it" << (p.contact->slipped ? ", then slips" : "") << "\n";
   if (p.linearTrusted)
     t << "validity    "
       << (p.kinematics == retraction::Kinematics::Linear ? "linear theory can be trusted here"
@@ -67,6 +68,8 @@ int runScene(const pipeline::Scene& scene, const pipeline::RunOptions& options, 
   std::cerr << "glisson-cli: the solve " << (ofAtlas ? "with the atlas stiffness " : "") << "did not converge ("
             << failed.kind << ", residual " << failed.residual << "); its result is marked and not drawn: "
             << (slipped(r) ? "the bar slips; choose another place or a smaller force"
+                : r.primary.contact
+                    ? "this load folds the body; choose another place, a smaller force or stiffer supports"
                 : r.primary.kinematics != retraction::Kinematics::Linear
                     ? "this load folds the body; lower it, spread it or stiffen the supports"
                 : scene.setup.solver.kind == mechanics::SolverKind::Auto

@@ -1,10 +1,10 @@
 #include "comparison/difference.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/error.h"
+#include "retraction/contact_path.h"
 
 namespace glisson::comparison {
 namespace {
@@ -37,23 +37,6 @@ struct WeightedMean {
   double value() const { return weight > 0.0 ? sum / weight : 0.0; }
 };
 
-/// Force at a travel, linear between the steps of a path.
-double forceAt(const std::vector<std::array<double, 2>>& path, double travel_mm) {
-  for (std::size_t i = 1; i < path.size(); ++i)
-    if (path[i][0] >= travel_mm && path[i][0] > path[i - 1][0]) {
-      const double t = (travel_mm - path[i - 1][0]) / (path[i][0] - path[i - 1][0]);
-      return path[i - 1][1] + t * (path[i][1] - path[i - 1][1]);
-    }
-  return path.empty() ? 0.0 : path.back()[1];
-}
-
-/// Force at a travel on the answer's own cells: that of the path, which is followed on coarser ones, times what they
-/// differ by at the answer.
-double forceAt(const retraction::RigidContact& c, double travel_mm) {
-  const double borne_N = c.force_N.dot(c.hoist), onPath_N = forceAt(c.path, c.travel_mm);
-  return onPath_N > 0.0 ? forceAt(c.path, travel_mm) * borne_N / onPath_N : borne_N;
-}
-
 /// In the bar's window at rest: under its length and diameter, looking against the hoist, within 30 mm of it.
 bool inWindow(const retraction::RigidContact& c, std::size_t sample) {
   constexpr double depth_mm = 30.0;
@@ -77,8 +60,12 @@ void compareContacts(const retraction::RigidContact& a, const retraction::RigidC
   d.window_at_rest_mm = window.value();
   d.contact_mean_mm = pressed.value();
   d.travel_mm = a.travel_mm - b.travel_mm;
-  const double lift_mm = std::min(a.travel_mm, b.travel_mm);
-  d.equal_lift = {lift_mm, forceAt(a, lift_mm), forceAt(b, lift_mm)};
+  // Both forces along the paths that are drawn, neither brought to the answers' cells: what the coarse cells add, they
+  // add to both.
+  double lift_mm = std::min(a.travel_mm, b.travel_mm);
+  for (const retraction::RigidContact* c : {&a, &b})
+    if (!c->path.empty()) lift_mm = std::min(lift_mm, c->path.back()[0]);
+  d.equal_lift = {lift_mm, retraction::forceAt(a.path, lift_mm), retraction::forceAt(b.path, lift_mm)};
 }
 
 }  // namespace

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -50,11 +52,12 @@ Eigen::Matrix3d biot(const Eigen::Matrix3d& H) {
   return eigen.eigenvectors() * stretch.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-double quantile(std::vector<double>& values, double q) {
-  const auto place = static_cast<std::ptrdiff_t>(
-      std::min(static_cast<double>(values.size() - 1), std::ceil(q * static_cast<double>(values.size())) - 1));
-  std::nth_element(values.begin(), values.begin() + place, values.end());
-  return values[static_cast<std::size_t>(place)];
+/// Of values in ascending order with their volumes: the first up to which there is this volume.
+double quantile(const std::vector<std::pair<double, double>>& values, double volume) {
+  double sum = 0.0;
+  for (const auto& [value, share] : values)
+    if ((sum += share) >= volume * (1 - 1e-12)) return value;
+  return values.back().first;
 }
 
 }  // namespace
@@ -96,16 +99,35 @@ CellMeasures measureCells(const VoxelMesh& mesh, const NodalField& u_m, StrainMe
 }
 
 DeformationSummary summarise(const CellMeasures& cells, const NodalField& u_m) {
+  return summarise(cells, u_m, std::vector<float>(static_cast<std::size_t>(cells.principalStrain.size()), 1.0f));
+}
+
+DeformationSummary summarise(const CellMeasures& cells, const NodalField& u_m, const std::vector<float>& covered) {
+  if (covered.size() != static_cast<std::size_t>(cells.principalStrain.size()))
+    throw BadArgument("summarise: " + std::to_string(covered.size()) + " shares for " +
+                      std::to_string(cells.principalStrain.size()) + " cells");
   DeformationSummary s;
-  std::vector<double> strain(cells.principalStrain.begin(), cells.principalStrain.end());
-  if (strain.empty()) return s;
-  s.maxStrain = cells.principalStrain.maxCoeff();
-  s.p95Strain = quantile(strain, 0.95);
-  s.p99Strain = quantile(strain, 0.99);
-  s.maxRotation_deg = cells.rotation_deg.maxCoeff();
-  s.fractionAbove10 =
-      static_cast<double>((cells.principalStrain.array() > 0.1).count()) / static_cast<double>(strain.size());
-  s.invertedCells = static_cast<std::size_t>((cells.volumeRatio.array() <= 0).count());
+  std::vector<std::pair<double, double>> strains;  // strain, volume
+  double volume = 0.0, above10 = 0.0;
+  for (std::size_t i = 0; i < covered.size(); ++i) {
+    const double share = static_cast<double>(covered[i]);
+    if (share < leastCovered) {
+      ++s.cellsLeftOut;
+      continue;
+    }
+    const auto e = static_cast<Eigen::Index>(i);
+    strains.emplace_back(cells.principalStrain[e], share);
+    volume += share;
+    if (cells.principalStrain[e] > 0.1) above10 += share;
+    s.maxStrain = std::max(s.maxStrain, cells.principalStrain[e]);
+    s.maxRotation_deg = std::max(s.maxRotation_deg, cells.rotation_deg[e]);
+    if (cells.volumeRatio[e] <= 0) ++s.invertedCells;
+  }
+  if (strains.empty()) return s;
+  std::sort(strains.begin(), strains.end());
+  s.p95Strain = quantile(strains, 0.95 * volume);
+  s.p99Strain = quantile(strains, 0.99 * volume);
+  s.fractionAbove10 = above10 / volume;
   const Eigen::VectorXd length = u_m.colwise().norm();
   s.maxDisplacement_m = length.maxCoeff();
   s.meanDisplacement_m = length.mean();
@@ -117,13 +139,8 @@ DeformationSummary summarise(const VoxelMesh& mesh, const NodalField& u_m, Strai
 }
 
 Validity validity(const VoxelMesh& mesh, const DeformationSummary& summary) {
+  constexpr double strainLimit = 0.10, rotationLimit_deg = 15, noticeable_deg = 8;
   Validity v;
-  const auto warn = [&](const auto&... parts) {
-    std::ostringstream text;
-    text.precision(3);
-    (text << ... << parts);
-    v.warnings.push_back(text.str());
-  };
   Eigen::Vector3i low = mesh.cellOf(0);
   Eigen::Vector3i high = low;
   for (int e = 0; e < mesh.cellCount(); ++e) {
@@ -133,24 +150,25 @@ Validity validity(const VoxelMesh& mesh, const DeformationSummary& summary) {
   const double size = (high - low + Eigen::Vector3i::Ones()).cast<double>().cwiseProduct(mesh.h_m()).norm();
   if (summary.maxDisplacement_m > size) {
     v.invalid = true;
-    warn("the largest displacement (", 1e3 * summary.maxDisplacement_m, " mm) exceeds the body (", 1e3 * size,
-         " mm): not a deformation");
+    v.said.add(DiagnosticCode::DisplacementBeyondBody,
+               {{"displacement_mm", 1e3 * summary.maxDisplacement_m}, {"body_mm", 1e3 * size}});
   }
   if (summary.invertedCells > 0) {
     v.invalid = true;
-    warn(summary.invertedCells, summary.invertedCells == 1 ? " cell is" : " cells are", " turned inside out");
+    v.said.add(DiagnosticCode::CellsInsideOut, {{"cells", static_cast<std::int64_t>(summary.invertedCells)}});
   }
-  v.linearTrusted = !v.invalid && summary.p95Strain < 0.10 && summary.maxRotation_deg < 15;
-  if (summary.p95Strain >= 0.10)
-    warn("outside linear elasticity: 5 % of the volume strains by more than ", 100 * summary.p95Strain,
-         " % (limit 10 %)");
-  if (summary.maxRotation_deg >= 15)
-    warn("outside linear elasticity: material turns by up to ", summary.maxRotation_deg, " degrees (limit 15)");
-  else if (summary.maxRotation_deg > 8)
-    warn("material turns by up to ", summary.maxRotation_deg,
-         " degrees: small-strain theory adds a spurious strain of about 1 % from 8 degrees on");
-  if (summary.fractionAbove10 > 0 && summary.p95Strain < 0.10)
-    warn(100 * summary.fractionAbove10, " % of the volume strains by more than 10 %");
+  v.linearTrusted = !v.invalid && summary.p95Strain < strainLimit && summary.maxRotation_deg < rotationLimit_deg;
+  if (summary.p95Strain >= strainLimit)
+    v.said.add(DiagnosticCode::StrainBeyondLinear,
+               {{"percent", 100 * summary.p95Strain}, {"limit_percent", 100 * strainLimit}});
+  if (summary.maxRotation_deg >= rotationLimit_deg)
+    v.said.add(DiagnosticCode::RotationBeyondLinear,
+               {{"degrees", summary.maxRotation_deg}, {"limit_degrees", rotationLimit_deg}});
+  else if (summary.maxRotation_deg > noticeable_deg)
+    v.said.add(DiagnosticCode::RotationNoticeable, {{"degrees", summary.maxRotation_deg}});
+  if (summary.fractionAbove10 > 0 && summary.p95Strain < strainLimit)
+    v.said.add(DiagnosticCode::StrainLocallyLarge, {{"percent", 100 * summary.fractionAbove10}});
+  v.warnings = v.said.texts();
   return v;
 }
 

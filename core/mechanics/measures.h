@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "mechanics/problem.h"
 
 namespace glisson::mechanics {
@@ -33,6 +34,7 @@ struct DeformationSummary {
   double maxRotation_deg = 0.0;
   double fractionAbove10 = 0.0;  ///< of the volume with |principal strain| > 0.1
   std::size_t invertedCells = 0;
+  std::size_t cellsLeftOut = 0;  ///< cells of which less than leastCovered belongs to the body
   double maxDisplacement_m = 0.0;
   double meanDisplacement_m = 0.0;  ///< over nodes
 };
@@ -40,11 +42,19 @@ DeformationSummary summarise(const VoxelMesh& mesh, const NodalField& u_m,
                              StrainMeasure measure = StrainMeasure::Small);
 DeformationSummary summarise(const CellMeasures& cells, const NodalField& u_m);
 
+/// Cells that a surface cuts to less than this say nothing about the body: the little tissue in them hardly resists.
+inline constexpr double leastCovered = 0.5;
+/// The same where the surface cuts cells: covered holds the share of each filled cell that belongs to the body, 0 to 1.
+/// Cells below leastCovered are left out, the others count for as much of the volume as they hold. Throws BadArgument
+/// where covered has another length.
+DeformationSummary summarise(const CellMeasures& cells, const NodalField& u_m, const std::vector<float>& covered);
+
 /// How far linear elasticity can be believed.
 struct Validity {
   bool linearTrusted = false;  ///< p95 strain < 0.10 and rotation < 15°: about 0.2 mm on a liver
   bool invalid = false;  ///< displacement larger than the body, or inverted cells: no picture should be drawn of it
-  std::vector<std::string> warnings;  ///< in words, most serious first; empty when nothing is to be said
+  Diagnostics said;      ///< most serious first; empty when nothing is to be said
+  std::vector<std::string> warnings;  ///< the same in words
 };
 Validity validity(const VoxelMesh& mesh, const DeformationSummary& summary);
 

@@ -151,7 +151,9 @@ retraction::Model buildModel(const Scene& scene, const Inputs& inputs, const ima
 }
 
 retraction::Model buildAtlasModel(const Scene& scene, const image::Mask& cells) {
-  return uniformModel(scene, cells, scene.compare->value_kPa, scene.compare->quantity);
+  retraction::Model model = uniformModel(scene, cells, scene.compare->value_kPa, scene.compare->quantity);
+  model.stiffness = "atlas";
+  return model;
 }
 
 bool sameStiffness(const retraction::Model& a, const retraction::Model& b) {

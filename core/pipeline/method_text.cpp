@@ -69,10 +69,14 @@ struct LoadInWords {
     t += l.at_mm ? "put at " + inWords(*l.at_mm) + " mm" : "put under the inferior right lobe";
     t += ", lifting along " + inWords(l.direction) + " with " +
          (l.force_N ? number(*l.force_N) + " N" : "the weight of the body");
-    t += l.spread_mm > 0
-             ? "; its pressure spreads into the tissue with a standard deviation of " + number(l.spread_mm) + " mm"
-             : "; bare bar";
-    if (r.primary.contactArea_mm2 > 0) t += " (contact " + number(r.primary.contactArea_mm2) + " mm²)";
+    if (r.primary.contact)
+      t += "; a rigid bar that pushes and does not pull";
+    else
+      t += l.spread_mm > 0
+               ? "; its pressure spreads into the tissue with a standard deviation of " + number(l.spread_mm) + " mm"
+               : "; bare bar";
+    if (r.primary.contactArea_mm2 > 0)
+      t += " (contact " + number(r.primary.contactArea_mm2) + " mm² seen along the hoist)";
     return t + "; no friction";
   }
 };
@@ -143,7 +147,7 @@ std::string modelInWords(const Scene& scene, const RunResult& r) {
           std::to_string(s.model.meshfree.order);
       break;
   }
-  t += ", " + std::to_string(r.primary.dofs) + " degrees of freedom, " + nameOf(s.kinematics) + " kinematics. ";
+  t += ", " + std::to_string(r.primary.dofs) + " degrees of freedom, " + nameOf(r.primary.kinematics) + " kinematics. ";
   if (s.analysis.dynamic)
     t += "Implicit Euler with steps of " + number(s.analysis.h_ms) + " ms to " + number(s.analysis.end_s) +
          " s, Rayleigh damping " + number(s.analysis.rayleigh[0]) + " 1/s and " + number(s.analysis.rayleigh[1]) +

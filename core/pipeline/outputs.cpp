@@ -38,9 +38,24 @@ std::optional<Eigen::Vector3d> mostMisplacedVessel(const RunResult& r) {
   return place;
 }
 
-std::string caption(const Scene& scene, const RunResult& r) {
+/// What the scene's own stiffness is called beside, or without, the atlas.
+std::string stiffnessName(const Scene& scene, bool compared) {
+  switch (scene.material.kind) {
+    case MaterialSpec::Kind::Mre:
+      return "MRE";
+    case MaterialSpec::Kind::Map:
+      return "map";
+    case MaterialSpec::Kind::Uniform:
+      return "uniform";
+    case MaterialSpec::Kind::Atlas:
+      break;
+  }
+  return compared ? "own" : "atlas";
+}
+
+std::string caption(const Scene& scene, const RunResult& r, const std::string& name) {
   const mechanics::SolveReport& s = r.primary.solver;
-  std::string c = r.atlas ? "MRE against atlas stiffness, same load. " : "One stiffness. ";
+  std::string c = r.atlas ? name + " against atlas stiffness, same load. " : "One stiffness (" + name + "). ";
   if (r.difference) {
     c += "Difference: mean " + number(r.difference->mean_mm, 3) + " mm, largest " + number(r.difference->max_mm, 3) +
          " mm";
@@ -73,11 +88,13 @@ render::RetractionScene retractionScene(const Scene& scene, const Inputs& inputs
       p.retractorLength_mm = bar->length_mm;
     }
   p.clinicallySignificant_mm = defaults::clinicallySignificant.mm();
-  p.caption = caption(scene, r);
+  p.compared = r.atlas.has_value();
+  p.stiffness = stiffnessName(scene, p.compared);
+  p.caption = caption(scene, r, p.stiffness);
   // A reservation is told in words; what may not be believed at all is not drawn.
   p.valid = r.primary.drawable && (!r.atlas || r.atlas->drawable);
   if (!r.primary.linearTrusted && !r.primary.validity.empty())
-    p.mark = "MRE: " + r.primary.validity.front() + ".";
+    p.mark = p.stiffness + ": " + r.primary.validity.front() + ".";
   else if (r.atlas && !r.atlas->linearTrusted && !r.atlas->validity.empty())
     p.mark = "Atlas: " + r.atlas->validity.front() + ".";
   return p;

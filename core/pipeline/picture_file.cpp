@@ -198,6 +198,8 @@ PictureData parsed(const Json& j, Body body) {
   s.caption = j.at("caption").get<std::string>();
   s.mark = j.at("mark").get<std::string>();
   s.valid = j.at("valid").get<bool>();
+  s.compared = j.value("compared", true);
+  s.stiffness = j.value("stiffness", s.stiffness);
   if (j.contains("vessel_lps_mm")) data.vessel_lps_mm = fromJson<Eigen::Vector3d>(j["vessel_lps_mm"]);
   return data;
 }
@@ -232,6 +234,8 @@ void writePictureFile(const std::filesystem::path& file, const PictureData& data
   j["caption"] = s.caption;
   j["mark"] = s.mark;
   j["valid"] = s.valid;
+  j["compared"] = s.compared;
+  j["stiffness"] = s.stiffness;
   if (data.vessel_lps_mm) j["vessel_lps_mm"] = toJson(*data.vessel_lps_mm);
   j["bytes"] = body.bytes().size();
   j["sha256"] = sha256(body.bytes().data(), body.bytes().size());

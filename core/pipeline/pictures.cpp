@@ -23,8 +23,9 @@ Eigen::Vector3d placeOfLargestDifference(const render::RetractionScene& p, int s
       const Eigen::Vector3i ijk = grid.lpsToIndex(at).array().round().cast<int>();
       if (!p.liver.grid.contains(liver) || !p.liver.at(liver) || !grid.contains(ijk)) continue;
       const Eigen::Vector3f a = p.u_mre_mm.at(ijk), b = p.u_atlas_mm.at(ijk);
-      if ((a - b).norm() <= largest) continue;
-      largest = (a - b).norm();
+      const float apart = p.compared ? (a - b).norm() : a.norm();
+      if (apart <= largest) continue;
+      largest = apart;
       place = at + 0.5 * (a + b).cast<double>();
     }
   return place;
@@ -106,6 +107,7 @@ std::vector<std::filesystem::path> drawSlices(const PictureData& data, const Pic
       plan("overlay-slice-" + std::to_string(slice) + ".png", slice, {});
     }
     drawPlanned();
+    if (!scene.compared) return files;
     for (const int slice : options.slices) {
       map.slice = slice;
       write("difference-map-slice-" + std::to_string(slice) + ".png", render::differencePicture(scene, map));
@@ -113,11 +115,12 @@ std::vector<std::filesystem::path> drawSlices(const PictureData& data, const Pic
     return files;
   }
   const int largest = render::sliceOfLargestDifference(scene);
-  plan("overlay-largest-difference.png", largest, {});
+  plan(scene.compared ? "overlay-largest-difference.png" : "overlay-largest-displacement.png", largest, {});
   if (data.vessel_lps_mm) plan("overlay-vessels.png", sliceOf(scene.mri.grid, *data.vessel_lps_mm), data.vessel_lps_mm);
   if (scene.retractorPoint_lps_mm)
     plan("overlay-retractor.png", sliceOf(scene.mri.grid, *scene.retractorPoint_lps_mm), {});
   drawPlanned();
+  if (!scene.compared) return files;
   map.slice = largest;
   write("difference-map.png", render::differencePicture(scene, map));
   return files;
@@ -146,13 +149,13 @@ void addPath(const render::BarContact& c, const std::string& name, render::Rgb c
 
 }  // namespace
 
-render::XyChart forceChart(const render::RigidBar& bar) {
+render::XyChart forceChart(const render::RigidBar& bar, const std::string& stiffness) {
   constexpr render::Rgb blue{0, 114, 178}, red{213, 94, 0};  // told apart by colour-blind readers too
   render::XyChart chart;
   chart.title = "Force of the bar against its travel";
   chart.x = {.title = "Travel from first touch (mm)", .low = 0.0};
   chart.y = {.title = "Force on the liver (N)", .low = 0.0};
-  addPath(bar.mre, "MRE", blue, chart);
+  addPath(bar.mre, stiffness, blue, chart);
   if (bar.atlas) addPath(*bar.atlas, "atlas", red, chart);
   if (bar.asked_N > 0.0) {
     char label[48];
@@ -167,7 +170,7 @@ std::vector<std::filesystem::path> drawCharts(const PictureData& data, const Pic
                                               const std::filesystem::path& folder) {
   if (!data.scene.bar || data.scene.bar->mre.path.empty()) return {};
   const std::filesystem::path file = folder / "force-travel.png";
-  render::writePng(file, render::draw(forceChart(*data.scene.bar)), options.dpi);
+  render::writePng(file, render::draw(forceChart(*data.scene.bar, data.scene.stiffness)), options.dpi);
   return {file};
 }
 
@@ -199,7 +202,7 @@ std::vector<std::filesystem::path> draw3D(const PictureData& data, const Picture
     o.camera = camera.camera;
     const std::string name = camera.name.empty() ? std::string() : "-" + camera.name;
     o.shown = render::Shown3D::PressureMre;
-    draw("contact-pressure-mre" + name);
+    draw((data.scene.compared ? "contact-pressure-mre" : "contact-pressure") + name);
     if (!data.scene.bar->atlas) continue;
     o.shown = render::Shown3D::PressureAtlas;
     draw("contact-pressure-atlas" + name);

@@ -22,8 +22,8 @@ struct NamedCamera {
 /// Throws BadInput.
 NamedCamera cameraFromText(const std::string& text);
 
-/// Where the two predictions differ most in a slice (k of the MRI), in the middle between the two places; the middle of
-/// the image where nothing moves.
+/// Where the two predictions differ most in a slice (k of the MRI), in the middle between the two places; of one
+/// prediction where it moves most. The middle of the image where nothing moves.
 Eigen::Vector3d placeOfLargestDifference(const render::RetractionScene& scene, int slice);
 
 /// Which pictures, and how.
@@ -35,13 +35,15 @@ struct PictureOptions {
   double dpi = 300.0;
 };
 
-/// Draws the slices and the map of differences into the folder; gives the files. Nothing where the scene may not be
-/// drawn (not converged, inverted cells). Throws BadInput where a slice is not there or the folder cannot be written.
+/// Draws the slices and, of two answers, the map of differences into the folder; gives the files. Nothing where the
+/// scene may not be drawn (not converged, inverted cells). Throws BadInput where a slice is not there or the folder
+/// cannot be written.
 std::vector<std::filesystem::path> drawSlices(const PictureData& data, const PictureOptions& options,
                                               const std::filesystem::path& folder);
 
-/// Force of a rigid bar against its travel under either stiffness, with what was asked for and how much the place bears.
-render::XyChart forceChart(const render::RigidBar& bar);
+/// Force of a rigid bar against its travel under either stiffness, with what was asked for and how much the place
+/// bears. stiffness: what the first one is called.
+render::XyChart forceChart(const render::RigidBar& bar, const std::string& stiffness = "MRE");
 
 /// The chart of a rigid bar, whether the scene may be drawn or not: a bar that slips shows there how far it came. Nothing
 /// without such a bar.

@@ -9,6 +9,7 @@
 #include "mechanics/sites.h"
 #include "pipeline/detail/needs.h"
 #include "pipeline/region_file.h"
+#include "retraction/offered.h"
 #include "retraction/rigid_contact.h"
 
 namespace glisson::pipeline {
@@ -160,6 +161,36 @@ DelaunaySize predictDelaunay(const Scene& s, const BodySize& body) {
   return d;
 }
 
+/// Why the retractor is no rigid bar.
+std::string patchInWords(const retraction::Setup& setup) {
+  const auto refusal = retraction::patchTakenFor(setup);
+  return "the retractor is a patch of pressure" +
+         (refusal ? ": a rigid bar is not offered for " + retraction::inWords(*refusal, setup) : std::string());
+}
+
+/// What "auto" does without a rigid bar.
+std::string autoInWords(const retraction::Setup& setup) {
+  const auto refusal = retraction::largeDeformationRefusal(setup);
+  return refusal ? "it is not offered for " + retraction::inWords(*refusal, setup)
+                 : "only if linear theory misses 0.2 mm or more, or strains leave it: then the scene is solved again";
+}
+
+/// The equations of the one solve.
+std::string solveInWords(const Scene& s, const detail::Needs& n) {
+  if (n.rigidBar) {
+    const bool travel = std::any_of(s.setup.loads.begin(), s.setup.loads.end(), [](const retraction::LoadSpec& load) {
+      const auto* bar = std::get_if<retraction::Retractor>(&load);
+      return bar != nullptr && bar->travel_mm;
+    });
+    return std::string("contact of bar and body: the bar is moved in steps on coarse cells until it has ") +
+           (travel ? "its travel" : "its force") +
+           ", then balance is found on the body's own cells, each time by Newton's method" +
+           (s.setup.kinematics == retraction::Kinematics::Linear ? " (the body is linear, contact is not)" : "");
+  }
+  if (n.newton) return "balance in the deformed shape, by Newton's method";
+  return "K u = f once";
+}
+
 }  // namespace
 
 std::vector<PlanStep> plan(const Scene& s) {
@@ -210,8 +241,8 @@ std::vector<PlanStep> plan(const Scene& s) {
       0.1, 40e-6 * cells);
   const bool assembled = tets || (n.newton && !n.rigidBar) || s.setup.solver.kind == mechanics::SolverKind::Factorised;
   add("place-bar", n.rigidBar,
-      n.rigidBar    ? "the first place on the lower right lobe that both stiffnesses bear, or the one that the scene gives"
-      : n.retractor ? "the retractor is a patch of pressure"
+      n.rigidBar ? "the first place on the lower right lobe that both stiffnesses bear, or the one that the scene gives"
+      : n.retractor ? patchInWords(s.setup)
                     : "there is no retractor",
       2 * solve_s, 0.2 * solve_MB);
   add("capsule", n.rigidBar && s.setup.capsule.has_value(),
@@ -241,19 +272,26 @@ std::vector<PlanStep> plan(const Scene& s) {
       n.damping     ? "Rayleigh damping is given"
       : n.timeSteps ? "both Rayleigh coefficients are 0"
                     : "the analysis is static");
-  add("solve", !n.timeSteps, n.timeSteps ? "the time steps lead to the answer" : "K u = f once", solve_s, solve_MB);
+  add("solve", !n.timeSteps, n.timeSteps ? "the time steps lead to the answer" : solveInWords(s, n), solve_s, solve_MB);
   add("time-steps", n.timeSteps,
       n.timeSteps ? "implicit Euler to " + std::to_string(s.setup.analysis.end_s) + " s"
                   : "only the steady state is asked for",
       solve_s * s.setup.analysis.end_s * 1e3 / s.setup.analysis.h_ms, solve_MB);
-  add("large-deformation", n.newton, n.newton ? "the kinematics are not linear" : "the kinematics are linear",
+  const bool automatic = s.setup.kinematics == retraction::Kinematics::Auto;
+  add("large-deformation", n.newton,
+      n.newton && automatic
+          ? "a rigid bar is followed in large deformation: what linear theory would miss is known only once "
+            "that answer is there, so \"auto\" does not fall back to it"
+      : n.newton  ? "the kinematics are not linear"
+      : automatic ? autoInWords(s.setup)
+                  : "the kinematics are linear",
       10 * solve_s, 2 * solve_MB);
   add("linear-solve", n.linearBeside,
       n.linearBeside ? (n.report ? "the report shows beside the answer what linear theory would have said"
                                  : "what linear theory misses is said of every answer")
       : n.newton     ? "the analysis is dynamic"
                      : "the answer is the linear one",
-      (n.compare && n.report ? 2.0 : 1.0) * solve_s, solve_MB);
+      (n.compare ? 2.0 : 1.0) * solve_s, solve_MB);
   add("condensed-response", n.condensed,
       n.condensed ? "the solver is \"condensed\"" : "one load case: a response matrix would not pay");
   add("atlas-solve", n.compare,
@@ -278,9 +316,11 @@ std::vector<PlanStep> plan(const Scene& s) {
       0.01);
   // On cells so large that the tangent, 0.7 kB for each degree of freedom, stays below 42 MB.
   add("linear-gap", !n.newton,
-      n.newton ? "the kinematics are not linear: \"linear-solve\" says what they add"
-               : "one corotational correction says what linear theory misses",
-      (n.compare ? 0.8 : 0.4) * solve_s, std::min(60.0, 0.7e-3 * 3.3 * body.voxels));
+      n.newton     ? "the kinematics are not linear: \"linear-solve\" says what they add"
+      : n.rigidBar ? "the same bar in large deformation says what linear theory misses"
+                   : "one corotational correction says what linear theory misses",
+      (n.compare ? 2.0 : 1.0) * (n.rigidBar ? 10.0 : 0.4) * solve_s,
+      n.rigidBar ? 2 * solve_MB : std::min(60.0, 0.7e-3 * 3.3 * body.voxels));
   add("strain", n.strain, "every result says whether linear theory can be trusted", 1e-7 * cells);
   add("cell-displacements", n.cellField,
       n.cellField ? "overlays, comparison or the field itself need them" : "only probes and sums are asked for",

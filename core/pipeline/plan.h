@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "pipeline/scene.h"
 
 namespace glisson::pipeline {
@@ -18,5 +19,8 @@ struct PlanStep {
 
 /// Every step the software knows, in order, each needed or left out with its reason.
 std::vector<PlanStep> plan(const Scene& scene);
+
+/// What makes one doubt a scene before anything is solved, and which of its settings go unused.
+Diagnostics toldOf(const Scene& scene);
 
 }  // namespace glisson::pipeline

@@ -1,113 +1,23 @@
 #include "pipeline/detail/record.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/parallel.h"
 #include "base/sha256.h"
 #include "base/version.h"
-#include "mechanics/static_solve.h"
-#include "retraction/ligaments.h"
+#include "pipeline/detail/result_json.h"
+#include "pipeline/detail/told.h"
 
 namespace glisson::pipeline::detail {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json toJson(const Eigen::Vector3d& v) {
-  Json j = Json::array();
-  for (int c = 0; c < 3; ++c) j.push_back(std::isfinite(v[c]) ? Json(v[c]) : Json(nullptr));
-  return j;
-}
-
-Json solverToJson(const mechanics::SolveReport& s) {
-  return {{"kind", s.kind},
-          {"why", s.why},
-          {"iterations", s.iterations},
-          {"residual", s.residual},
-          {"tolerance", s.tolerance},
-          {"converged", s.converged()},
-          {"status", mechanics::describe(s.status)},
-          {"seconds", s.seconds}};
-}
-
-Json contactToJson(const retraction::RigidContact& c) {
-  Json path = Json::array();
-  for (const auto& step : c.path) path.push_back({step[0], step[1]});
-  return {{"travel_mm", c.travel_mm},
-          {"capacity_N", c.capacityExceeded ? Json(c.capacity_N) : Json(nullptr)},
-          {"slipped", c.slipped},
-          {"force_N", toJson(c.force_N)},
-          {"moment_Nm", toJson(c.moment_Nm)},
-          {"area_mm2", c.area_mm2},
-          {"footprint_mm2", c.footprint_mm2},
-          {"pressure_max_kPa", c.pressureMax_kPa},
-          {"penetration_max_mm", c.penetrationMax_mm},
-          {"least_volume_ratio", c.smallestJ},
-          {"path", path}};
-}
-
-Json gapToJson(const retraction::LinearGap& gap) {
-  Json j;
-  j["known"] = gap.known;
-  j["stable"] = gap.stability == mechanics::Stability::Unknown ? Json(nullptr)
-                                                               : Json(gap.stability == mechanics::Stability::Stable);
-  if (!gap.known) {
-    j["why"] = gap.why;
-    return j;
-  }
-  j["mean"] = gap.mean_mm;
-  j["max"] = gap.max_mm;
-  if (gap.at_retractor_mm) j["at_retractor"] = *gap.at_retractor_mm;
-  if (gap.landmarks_max_mm) j["landmarks_max"] = *gap.landmarks_max_mm;
-  return j;
-}
-
-Json resultToJson(const retraction::Result& r, const Scene& scene) {
-  Json j;
-  j["solver"] = solverToJson(r.solver);
-  j["steps"] = r.steps;
-  j["probes"] = Json::array();
-  for (std::size_t i = 0; i < r.probe_u_mm.size(); ++i)
-    j["probes"].push_back({{"p_mm", toJson(scene.outputs.probes_mm[i])}, {"u_mm", toJson(r.probe_u_mm[i])}});
-  j["reaction_N"] = toJson(r.reaction_N);
-  j["load_N"] = toJson(r.load_N);
-  j["energy_J"] = r.energy_J;
-  j["max_strain"] = r.max_strain;
-  j["p95_strain"] = r.p95_strain;
-  j["p99_strain"] = r.p99_strain;
-  j["fraction_over_10pct_strain"] = r.fraction_over_10pct;
-  j["max_rotation_deg"] = r.max_rotation_deg;
-  j["max_displacement_mm"] = r.max_displacement_mm;
-  j["linear_valid"] = r.linearTrusted;
-  j["kinematics_valid"] = retraction::kinematicsValid(r);
-  if (r.linearGap) j["linear_gap_mm"] = gapToJson(*r.linearGap);
-  j["drawable"] = r.drawable;
-  j["validity"] = r.validity;
-  if (r.retractorPoint_mm) {
-    j["retractor_point_mm"] = toJson(*r.retractorPoint_mm);
-    j["contact_area_mm2"] = r.contactArea_mm2;
-  }
-  if (r.contact) j["contact"] = contactToJson(*r.contact);
-  for (const retraction::LigamentPull& l : r.ligaments)
-    j["ligaments"].push_back({{"name", retraction::nameOf(l.name)},
-                              {"stiffness_N_per_mm", l.stiffness_N_per_mm},
-                              {"force_N", toJson(l.force_N)}});
-  return j;
-}
-
-Json toJson(const Diagnostic& d) {
-  Json arguments = Json::object();
-  for (const auto& [key, value] : d.arguments) std::visit([&, k = key](const auto& v) { arguments[k] = v; }, value);
-  return {{"code", nameOf(d.code)},
-          {"severity", nameOf(d.severity())},
-          {"text", d.text()},
-          {"arguments", std::move(arguments)}};
-}
-
 Json poseToJson(const retraction::PlacedBar& placed) {
-  Json j = {{"centre_mm", toJson(*placed.bar.at_mm)}, {"axis", toJson(*placed.bar.axis)}, {"bears", placed.bears}};
+  Json j = {{"centre_mm", vectorToJson(*placed.bar.at_mm)},
+            {"axis", vectorToJson(*placed.bar.axis)},
+            {"bears", placed.bears}};
   if (placed.pose) {
     j["height_mm"] = placed.pose->height_mm;
     j["covered_mm"] = placed.pose->covered_mm;
@@ -154,7 +64,8 @@ Json differenceToJson(const comparison::Difference& d) {
     j["contact_mean_mm"] = *d.contact_mean_mm;
     j["equal_lift"] = {{"travel_mm", d.equal_lift->travel_mm},
                        {"force_N", d.equal_lift->force_N},
-                       {"atlas_force_N", d.equal_lift->other_force_N}};
+                       {"atlas_force_N", d.equal_lift->other_force_N},
+                       {"along", "path on coarse cells"}};
   }
   return j;
 }
@@ -276,21 +187,6 @@ Motion motionOf(const retraction::Model& model, const retraction::Result& result
   return m;
 }
 
-std::string adviceOn(const retraction::Result& r) {
-  if (r.kinematics != retraction::Kinematics::Linear || r.linearTrusted || !r.solver.converged()) return {};
-  if (r.p95_strain >= 0.10)
-    return "Choose \"kinematics\": \"hyperelastic\". Linear theory adds up strains as if they were small and keeps the "
-           "stiffness and the shape on which the load acts as they are at rest; the hyperelastic (neo-Hookean) body is "
-           "solved in its deformed shape and stiffens as it is compressed. Displacements at the retractor change most. "
-           "The report then shows both answers side by side.";
-  if (r.max_rotation_deg >= 15)
-    return "Choose \"kinematics\": \"corotational\". Linear theory takes rotation for strain; corotational elements "
-           "turn with the material and strain it only by what is left. Where the tissue turns, it no longer swells, "
-           "and "
-           "displacements there change. The report then shows both answers side by side.";
-  return "Choose \"kinematics\": \"hyperelastic\": the linear answer is no deformation of this body.";
-}
-
 std::string runRecord(const Scene& scene, const RunResult& r, render::Palette palette) {
   Json j;
   j["schema"] = "glisson/run/1";
@@ -328,7 +224,7 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
   }
   if (r.placed) j["pose"] = poseToJson(*r.placed);
   if (r.atlas) j["atlas"] = resultToJson(*r.atlas, scene);
-  if (const std::string advice = adviceOn(r.primary); !advice.empty()) j["advice"] = advice;
+  if (const std::string advice = adviceOn(scene, r.primary); !advice.empty()) j["advice"] = advice;
   if (r.linear) j["kinematics_compared"] = kinematicsToJson(r);
   if (r.difference) {
     const comparison::Difference& d = *r.difference;
@@ -353,7 +249,7 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
   j["warnings"] = r.warnings;
   for (const std::string& text : r.diagnostics.texts(Severity::Warning)) j["warnings"].push_back(text);
   j["diagnostics"] = Json::array();
-  for (const Diagnostic& d : r.diagnostics) j["diagnostics"].push_back(toJson(d));
+  for (const Diagnostic& d : r.diagnostics) j["diagnostics"].push_back(diagnosticToJson(d));
   j["kinematics"] = {{"asked", nameOf(scene.setup.kinematics)}, {"used", nameOf(r.primary.kinematics)}, {"why", r.kinematicsWhy}};
   j["parameters"] = parametersToJson(scene);
   j["constants"] = {{"gravity_m_s2", defaults::gravity_m_s2},

@@ -90,6 +90,10 @@ bool ReplayResult::identical() const {
          std::all_of(outputs.begin(), outputs.end(), [](const ReplayedFile& f) { return f.identical(); });
 }
 
+std::filesystem::path recordOf(const std::filesystem::path& run) {
+  return std::filesystem::is_directory(run) ? run / "run.json" : run;
+}
+
 std::vector<std::string> filesOfAnotherRun(const std::filesystem::path& recordFile) {
   const Json record = readJson(recordFile, "run record");
   std::vector<std::string> names;
@@ -106,7 +110,8 @@ std::vector<std::string> filesOfAnotherRun(const std::filesystem::path& recordFi
   return names;
 }
 
-ReplayResult replay(const std::filesystem::path& recordFile, const ReplayOptions& options, const Progress& progress) {
+ReplayResult replay(const std::filesystem::path& ofRun, const ReplayOptions& options, const Progress& progress) {
+  const std::filesystem::path recordFile = recordOf(ofRun);
   const Json record = readJson(recordFile, "run record");
   try {
     if (record.at("schema") != "glisson/run/1" || !record.contains("results_sha256"))

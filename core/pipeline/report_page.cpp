@@ -6,8 +6,10 @@
 #include "pipeline/detail/method_text.h"
 #include "pipeline/detail/outputs.h"
 #include "pipeline/detail/record.h"
+#include "pipeline/detail/told.h"
 #include "report/page.h"
 #include "report/text.h"
+#include "retraction/contact_path.h"
 
 namespace glisson::pipeline::detail {
 namespace {
@@ -27,17 +29,25 @@ using Rows = std::vector<std::pair<std::string, std::string>>;
 
 /// What the bar and the liver of one stiffness do to each other.
 void barRows(const std::string& who, const retraction::RigidContact& c, Rows& rows) {
-  rows.emplace_back("Bar, " + who, "travels " + number(c.travel_mm, 3) + " mm, bears " + number(c.force_N.norm(), 3) +
-                                       " N on " + number(c.area_mm2, 3) + " mm² (" + number(c.footprint_mm2, 3) +
-                                       " mm² seen along the hoist)");
+  rows.emplace_back("Bar, " + who, "travels " + number(c.travel_mm, 3) + " mm, bears " +
+                                       number(c.force_N.dot(c.hoist), 3) + " N along the hoist (resultant " +
+                                       number(c.force_N.norm(), 3) + " N) on " + number(c.area_mm2, 3) + " mm² (" +
+                                       number(c.footprint_mm2, 3) + " mm² seen along the hoist)");
   rows.emplace_back("Largest contact pressure, " + who, number(c.pressureMax_kPa, 3) + " kPa");
   if (c.slipped)
-    rows.emplace_back("Capacity, " + who, number(c.capacity_N, 3) + " N: the bar slips");
+    rows.emplace_back("Capacity, " + who, number(c.capacity_N, 3) + " N after " +
+                                              number(retraction::travelAtCapacity(c), 3) + " mm: the bar slips");
   else if (c.capacityExceeded)
     rows.emplace_back("Capacity, " + who, number(c.capacity_N, 3) + " N, met on the way");
 }
 
-void results(Page& page, const RunResult& r) {
+/// What the scene's own stiffness is called beside the textbook's.
+std::string ownIn(const Scene& scene) {
+  return scene.material.kind == MaterialSpec::Kind::Mre ? "measured" : "own";
+}
+
+void results(Page& page, const Scene& scene, const RunResult& r) {
+  const std::string ownWord = ownIn(scene);
   page.heading("Result");
   Rows rows;
   for (const Diagnostic& d : r.diagnostics)
@@ -54,17 +64,19 @@ void results(Page& page, const RunResult& r) {
       rows.emplace_back("At the retractor, error from the size of the cells",
                         "about " + number(*r.discretisation->difference->at_retractor_mm) + " mm");
     if (d.travel_mm) {
-      rows.emplace_back("Travel of the bar, measured less textbook", number(*d.travel_mm) + " mm");
+      rows.emplace_back("Travel of the bar, " + ownWord + " less textbook", number(*d.travel_mm) + " mm");
       rows.emplace_back("Force on the bar at equal lift (" + number(d.equal_lift->travel_mm, 3) + " mm)",
-                        number(d.equal_lift->force_N, 3) + " N measured, " + number(d.equal_lift->other_force_N, 3) +
-                            " N textbook (on the cells of the path)");
+                        number(d.equal_lift->force_N, 3) + " N " + ownWord + ", " +
+                            number(d.equal_lift->other_force_N, 3) +
+                            " N textbook (along the path, on its coarse cells)");
     }
     if (!d.vessel_mm.empty()) {
       rows.emplace_back("Vessel landmarks, mean", number(d.vesselMean_mm) + " mm");
       rows.emplace_back("Vessel landmarks 5 mm or more apart", number(100 * d.vesselFractionBeyond, 3) + " %");
     }
   }
-  for (const auto& [who, result] : {std::pair("measured", &r.primary), std::pair("textbook", r.atlas ? &*r.atlas : nullptr)})
+  for (const auto& [who, result] :
+       {std::pair(ownWord, &r.primary), std::pair(std::string("textbook"), r.atlas ? &*r.atlas : nullptr)})
     if (result != nullptr && result->contact) barRows(who, *result->contact, rows);
   rows.emplace_back("Kinematics", nameOf(r.primary.kinematics) + ": " + r.kinematicsWhy);
   const Motion motion = motionOf(r.model, r.primary);
@@ -87,7 +99,7 @@ void listed(Page& page, const std::vector<std::string>& items) {
   if (!items.empty()) page.list(items);
 }
 
-void trust(Page& page, const RunResult& r) {
+void trust(Page& page, const Scene& scene, const RunResult& r) {
   page.heading("Can it be trusted?");
   if (r.primary.linearTrusted)
     page.paragraph(r.primary.kinematics == retraction::Kinematics::Linear
@@ -96,11 +108,15 @@ void trust(Page& page, const RunResult& r) {
   else
     page.warning("The result is outside the limits of its theory; it is shown with this reservation.");
   listed(page, r.primary.validity);
-  if (const std::string advice = adviceOn(r.primary); !advice.empty()) page.warning(advice);
+  if (const std::string advice = adviceOn(scene, r.primary); !advice.empty()) page.warning(advice);
   page.table(
       {{"Solver", r.primary.solver.kind + ", relative residual " + number(r.primary.solver.residual, 2)},
        {"Strain, largest / 95 % below", number(r.primary.max_strain, 3) + " / " + number(r.primary.p95_strain, 3)},
-       {"Largest rotation", number(r.primary.max_rotation_deg, 3) + " degrees"},
+       {"Largest rotation",
+        number(r.primary.max_rotation_deg, 3) + " degrees" +
+            (r.primary.cellsLeftOut > 0 ? " (strain and rotation without " + std::to_string(r.primary.cellsLeftOut) +
+                                              " cells of which less than half is tissue)"
+                                        : std::string())},
        {"Load", inWords(r.primary.load_N) + " N"},
        {"Reaction", inWords(r.primary.reaction_N) + " N"}});
   if (r.discretisation) {
@@ -171,23 +187,26 @@ void kinematics(Page& page, const RunResult& r) {
 }
 
 /// Names the colours of the palette.
-std::string captionOf(const std::string& name, render::Palette palette) {
+std::string captionOf(const std::string& name, render::Palette palette, const std::string& own, bool compared) {
   const bool usual = palette == render::Palette::RedBlue;
   const std::string textbook = usual ? "red" : "orange", both = usual ? "purple" : "white";
   if (name == "force-travel.png")
-    return "Force of the bar on the liver against its travel, measured and textbook stiffness, with the force asked for and "
-           "the capacity of the place where it was met";
+    return "Force of the bar on the liver against its travel, " + own + (compared ? " and textbook" : "") +
+           " stiffness, with the force asked for and the capacity of the place where it was met";
   if (name.rfind("contact-pressure", 0) == 0)
     return std::string("Contact pressure on the retracted liver, seen from behind and below through the bar: ") +
-           (name.rfind("contact-pressure-mre", 0) == 0 ? "measured" : "textbook") + " stiffness";
+           (name.rfind("contact-pressure-atlas", 0) == 0 ? "textbook" : own) + " stiffness";
   if (name == "difference-map.png") return "Distance between the two predictions, mm";
   if (name.rfind("overlay-3d", 0) == 0)
-    return "Vessels where the measured stiffness puts them (blue) and where the textbook stiffness does (" + textbook +
-           ")";
+    return compared ? "Vessels where the " + own +
+                          " stiffness puts them (blue) and where the textbook stiffness does (" + textbook + ")"
+                    : "Liver and vessels where the " + own + " stiffness puts them";
   const char* where = name == "overlay-vessels.png"     ? "Slice of the most misplaced vessel"
                       : name == "overlay-retractor.png" ? "Slice of the retractor"
-                                                        : "Slice of the largest difference";
-  return std::string(where) + ": the image moved by each prediction, measured stiffness in blue, textbook in " +
+                      : compared                        ? "Slice of the largest difference"
+                                                        : "Slice of the largest displacement";
+  if (!compared) return std::string(where) + ": the image moved by the prediction";
+  return std::string(where) + ": the image moved by each prediction, " + own + " stiffness in blue, textbook in " +
          textbook + ", " + both + " where they agree";
 }
 
@@ -195,15 +214,17 @@ std::string captionOf(const std::string& name, render::Palette palette) {
 
 void Writer::report(const Scene& scene, const RunResult& r,
                     const std::vector<std::pair<std::string, std::string>>& inputs, render::Palette palette) {
-  Page page(r.difference ? "Liver retraction, measured against textbook stiffness" : "Deformation under load");
-  results(page, r);
-  trust(page, r);
+  Page page(r.difference ? "Liver retraction, " + ownIn(scene) + " against textbook stiffness"
+                         : std::string("Deformation under load"));
+  results(page, scene, r);
+  trust(page, scene, r);
   kinematics(page, r);
   page.heading("Pictures");
   int figure = 0;
   for (const auto& f : r.files)
     if (f.extension() == ".png")
-      page.picture(f, "Figure " + std::to_string(++figure) + ". " + captionOf(f.filename().string(), palette));
+      page.picture(f, "Figure " + std::to_string(++figure) + ". " +
+                          captionOf(f.filename().string(), palette, ownIn(scene), r.atlas.has_value()));
   if (figure == 0) page.paragraph("There is none: what did not converge, or is no deformation, is not drawn.");
   page.heading("Method");
   for (const std::string& paragraph : methodText(scene, r)) page.paragraph(paragraph);

@@ -16,9 +16,10 @@
 #include "image/io.h"
 #include "pipeline/detail/build_model.h"
 #include "pipeline/detail/needs.h"
-#include "pipeline/detail/outcomes.h"
 #include "pipeline/detail/outputs.h"
 #include "pipeline/detail/record.h"
+#include "pipeline/detail/told.h"
+#include "retraction/offered.h"
 
 namespace glisson::pipeline {
 namespace {
@@ -109,20 +110,6 @@ std::string framesInWords(const mechanics::MeshfreeOptions& asked, const retract
   return text;
 }
 
-/// Says so where the cells leave open on which side of the clinical line the difference at the retractor lies.
-std::string doubtOf(const RunResult& r) {
-  if (!r.difference || !r.discretisation || !r.discretisation->difference) return {};
-  const std::optional<double> error_mm = r.discretisation->difference->at_retractor_mm;
-  const double line_mm = defaults::clinicallySignificant.mm(), there_mm = r.difference->at_retractor_mm;
-  if (!error_mm || std::abs(there_mm - line_mm) > *error_mm) return {};
-  std::ostringstream text;
-  text.precision(3);
-  text << "the difference at the retractor, " << there_mm << " mm, is no further from " << line_mm
-       << " mm than the cells may shift it (" << *error_mm
-       << " mm): use smaller cells before saying on which side of that line it lies";
-  return text.str();
-}
-
 /// Memory that is free on this machine, MB; nothing where it cannot be told.
 std::optional<double> freeMemory_MB() {
   std::ifstream in("/proc/meminfo");
@@ -145,74 +132,38 @@ void requireMemory(const std::vector<PlanStep>& plan) {
     }
 }
 
-std::string whyKinematics(const Scene& scene, const retraction::Result& r) {
-  if (scene.setup.kinematics != retraction::Kinematics::Auto) return "the scene asks for them";
-  if (r.contact) return "contact is followed in large deformation, at no more cost than asking whether linear would do";
-  if (r.kinematics == retraction::Kinematics::Hyperelastic)
-    return "linear theory misses 0.2 mm or more, or strains leave it";
-  return r.linearGap && retraction::kinematicsValid(r) ? "linear theory misses less than 0.2 mm"
-                                                       : "the model offers no other";
-}
-
-std::string_view wordOf(bool atlas) {
-  return atlas ? "atlas" : "own";
-}
-
-/// No place that was tried bears the force.
-void tellOfPlaces(RunResult& r) {
-  double best = 0.0;
-  for (const auto& t : r.placed->tried) best = std::max(best, t.borne);
-  r.diagnostics.add(DiagnosticCode::NoPlaceBears,
-                    {{"places", static_cast<std::int64_t>(r.placed->tried.size())}, {"percent", 100.0 * best}});
-}
-
-/// What of the scene makes one doubt before anything is solved.
-void tellOfScene(const Scene& scene, const detail::Needs& needs, RunResult& r) {
-  if (scene.setup.poisson < 0.0) r.diagnostics.add(DiagnosticCode::PoissonNegative, {{"poisson", scene.setup.poisson}});
-  if (scene.capsuleAsked && scene.setup.capsule && !needs.rigidBar)
-    r.diagnostics.add(DiagnosticCode::CapsuleNotUsed,
-                      {{"instead", std::string(needs.retractor ? "the retractor is a patch of pressure"
-                                                               : "the scene has no retractor")}});
-}
-
-/// What linear theory misses of an answer in large deformation, both with the same bar, if there is one.
-retraction::LinearGap gapOf(const RunResult& r, const retraction::Result& linear) {
-  const comparison::Difference apart = comparison::compare(r.model, r.primary, linear, r.landmarks_mm);
+/// What linear theory misses of a linear answer with a rigid bar, from that in large deformation: one correction from
+/// the linear answer would keep its contact.
+retraction::LinearGap gapUnderBar(const retraction::Model& model, retraction::Setup setup,
+                                  const std::vector<Eigen::Vector3d>& landmarks_mm, const retraction::Result& linear,
+                                  const Progress& progress) {
   retraction::LinearGap gap;
-  gap.known = true;
-  gap.mean_mm = apart.mean_mm;
-  gap.max_mm = apart.max_mm;
-  gap.at_retractor_mm = apart.at_retractor_mm;
-  if (!apart.vessel_mm.empty()) gap.landmarks_max_mm = apart.vesselMax_mm;
+  if (!linear.solver.converged()) {
+    gap.why = "the linear answer did not converge";
+    return gap;
+  }
+  setup.kinematics = retraction::Kinematics::Hyperelastic;
+  const retraction::Result large = retraction::simulate(model, setup, {}, progress);
+  if (detail::isAnswer(large)) return retraction::gapBetween(model, linear, large, landmarks_mm);
+  gap.why = large.contact->slipped ? "in large deformation the bar slips" : "in large deformation there is no answer";
   return gap;
 }
 
-bool isAnswer(const retraction::Result& result) {
-  return result.solver.converged() && (result.drawable || result.kinematics == retraction::Kinematics::Linear);
-}
-
-/// A bar that is left to its default, where the rigid one is not offered, and what the second stiffness has to say.
-void tellOfModels(const Scene& scene, RunResult& r) {
-  for (const retraction::LoadSpec& load : scene.setup.loads)
-    if (const auto* bar = std::get_if<retraction::Retractor>(&load);
-        bar != nullptr && !bar->contact && !r.primary.contact)
-      r.warnings.push_back(
-          "the retractor is a patch of pressure here, not a rigid bar: that is offered for voxel hexahedra at rest, in large "
-          "deformation; \"contact\": \"patch\" says that this is meant");
-  if (r.atlas && r.atlas->contact)
-    for (const std::string& doubt : r.atlas->validity) r.warnings.push_back("atlas: " + doubt);
-}
-
-/// Two runs of which one is no answer have no difference.
-void withhold(RunResult& r) {
-  for (const bool atlas : {false, true}) {
-    const retraction::Result& result = atlas ? *r.atlas : r.primary;
-    if (isAnswer(result)) continue;
-    r.diagnostics.add(DiagnosticCode::DifferenceWithheld,
-                      {{"stiffness", std::string(wordOf(atlas))},
-                       {"reason", std::string(result.contact && result.contact->slipped ? "slips"
-                                              : result.solver.converged()               ? "no deformation"
-                                                                                        : "not converged")}});
+/// Puts into an answer what linear theory misses of it, where it is not there yet.
+void gapOf(const retraction::Model& model, const retraction::Setup& setup,
+           const std::vector<Eigen::Vector3d>& landmarks_mm, retraction::Result& result, const Progress& progress) {
+  if (result.linearGap) return;
+  if (result.kinematics != retraction::Kinematics::Linear) {
+    // Chosen by the gap of the first stiffness: that of the second is judged in the same way.
+    retraction::Setup inLinearTheory = setup;
+    inLinearTheory.kinematics = retraction::Kinematics::Linear;
+    retraction::Result linear = retraction::simulate(model, inLinearTheory, {}, progress);
+    retraction::judgeByGap(model, inLinearTheory, landmarks_mm, linear);
+    result.linearGap = linear.linearGap;
+  } else if (result.contact) {
+    retraction::putGap(setup, gapUnderBar(model, setup, landmarks_mm, result, progress), result);
+  } else {
+    retraction::judgeByGap(model, setup, landmarks_mm, result, progress);
   }
 }
 
@@ -223,7 +174,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     throw BadInput("the scene has neither supports nor loads; give at least one support and one load");
   const detail::Needs needs(scene);
   RunResult r;
-  tellOfScene(scene, needs, r);
+  r.diagnostics.add(toldOf(scene));
   r.plan = plan(scene);
   requireMemory(r.plan);
   Steps steps(r.plan, progress);
@@ -265,7 +216,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     r.placed = retraction::placeBar(r.model, scene.compare ? &atlasModel : nullptr, setup, p);
     for (retraction::LoadSpec& load : setup.loads)
       if (auto* bar = std::get_if<retraction::Retractor>(&load)) *bar = r.placed->bar;
-    if (!r.placed->bears) tellOfPlaces(r);
+    if (!r.placed->bears) detail::tellOfPlaces(r);
   });
   anatomy::VesselModel vessels;
   steps.run("vessels", [&](const Progress& p) { vessels = anatomy::findVessels(*inputs.mri, *inputs.liver, p); });
@@ -277,8 +228,8 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     retraction::judgeByGap(r.model, setup, r.landmarks_mm, r.primary);
     setup.kinematics = retraction::kinematicsValid(r.primary) && r.primary.linearTrusted
                            ? retraction::Kinematics::Linear
-                                                              : retraction::Kinematics::Hyperelastic;
-    if (setup.kinematics != retraction::Kinematics::Linear && setup.model.kind == retraction::ModelKind::FemHex) {
+                           : retraction::Kinematics::Hyperelastic;
+    if (setup.kinematics != retraction::Kinematics::Linear && !retraction::largeDeformationRefusal(setup)) {
       const std::optional<retraction::LinearGap> missed = r.primary.linearGap;
       r.primary = retraction::simulate(r.model, setup, scene.outputs.probes_mm, progress);
       r.primary.linearGap = missed;
@@ -286,7 +237,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
       setup.kinematics = retraction::Kinematics::Linear;
     }
   }
-  r.kinematicsWhy = whyKinematics(scene, r.primary);
+  r.kinematicsWhy = detail::whyKinematics(scene, r.primary);
   r.warnings.insert(r.warnings.end(), r.primary.notes.begin(), r.primary.notes.end());
   r.diagnostics.add(r.primary.diagnostics);
   if (scene.setup.model.kind == retraction::ModelKind::Meshfree)
@@ -305,10 +256,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     });
   }
 
-  tellOfModels(scene, r);
-  if (r.atlas)
-    for (const std::string& w : r.atlas->solver.diagnostics.texts(Severity::Warning))
-      r.warnings.push_back("atlas: " + w);
+  detail::tellOfAtlas(r);
 
   if (!options.discretisation)
     for (const char* step : {"discretisation-error", "linear-gap"})
@@ -324,7 +272,10 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   if (needs.pictures && r.primary.drawable && r.atlas && !r.atlas->drawable)
     r.warnings.push_back("no picture is drawn, because of the atlas prediction: " +
                          (r.atlas->validity.empty() ? "it is no deformation" : r.atlas->validity.front()) +
-                         "; spread the load (\"spread_mm\" of the retractor), or choose another model or larger cells");
+                         (r.primary.contact
+                              ? "; choose another place, a smaller force or larger cells"
+                              : "; spread the load (\"spread_mm\" of the retractor), or choose another model "
+                                "or larger cells"));
 
   if (!options.discretisation && !needs.report)
     steps.leaveOut("linear-solve", "a study that measures errors itself does without the estimate");
@@ -332,45 +283,50 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     if (!r.primary.solver.converged() && !needs.report) return;
     retraction::Setup inLinearTheory = setup;
     inLinearTheory.kinematics = retraction::Kinematics::Linear;
-    const bool both = scene.compare && needs.report;
     LinearBeside linear;
     try {
-      linear.primary = retraction::simulate(r.model, inLinearTheory, scene.outputs.probes_mm, p.part(0.0, both ? 0.5 : 1.0));
+      linear.primary =
+          retraction::simulate(r.model, inLinearTheory, scene.outputs.probes_mm, p.part(0.0, r.atlas ? 0.5 : 1.0));
+      if (r.atlas)
+        linear.atlas =
+            detail::sameStiffness(r.model, atlasModel)
+                ? linear.primary
+                : retraction::simulate(atlasModel, inLinearTheory, scene.outputs.probes_mm, p.part(0.5, 1.0));
     } catch (const BadInput& why) {
       steps.explain("linear-solve", std::string("linear theory does not offer this scene: ") + why.what());
       return;
     }
-    if (!linear.primary.solver.converged()) return;
-    if (r.primary.solver.converged()) r.primary.linearGap = gapOf(r, linear.primary);
-    if (!needs.report) return;
+    const auto gap = [&](const retraction::Model& model, const retraction::Result& answer, retraction::Result& told) {
+      if (answer.solver.converged() && told.solver.converged())
+        told.linearGap = retraction::gapBetween(model, answer, told, r.landmarks_mm);
+    };
+    gap(r.model, linear.primary, r.primary);
+    if (r.atlas) gap(atlasModel, *linear.atlas, *r.atlas);
+    if (!needs.report || !linear.primary.solver.converged() || (linear.atlas && !linear.atlas->solver.converged()))
+      return;
     linear.between = comparison::compare(r.model, r.primary, linear.primary, {});
-    if (scene.compare) {
-      linear.atlas = detail::sameStiffness(r.model, atlasModel)
-                         ? linear.primary
-                         : retraction::simulate(atlasModel, inLinearTheory, scene.outputs.probes_mm, p.part(0.5, 1.0));
-      linear.difference = comparison::compare(r.model, linear.primary, *linear.atlas, {});
-    }
-    if (linear.atlas && !linear.atlas->solver.converged()) return;
+    if (linear.atlas) linear.difference = comparison::compare(r.model, linear.primary, *linear.atlas, {});
     r.linear = std::move(linear);
   });
 
-  detail::tellOfOutcomes(r);
+  detail::tellOfContact(r);
   steps.run("linear-gap", [&](const Progress& p) {
-    retraction::judgeByGap(r.model, setup, r.landmarks_mm, r.primary, p.part(0.0, r.atlas ? 0.5 : 1.0));
+    const double half = r.atlas ? 0.5 : 1.0;
+    gapOf(r.model, setup, r.landmarks_mm, r.primary, p.part(0.0, half));
     if (r.atlas && detail::sameStiffness(r.model, atlasModel))
       r.atlas = r.primary;
     else if (r.atlas)
-      retraction::judgeByGap(atlasModel, setup, r.landmarks_mm, *r.atlas, p.part(0.5, 1.0));
+      gapOf(atlasModel, setup, r.landmarks_mm, *r.atlas, p.part(half, 1.0));
   });
-  const bool comparable = r.atlas && isAnswer(r.primary) && isAnswer(*r.atlas);
+  const bool comparable = r.atlas && detail::isAnswer(r.primary) && detail::isAnswer(*r.atlas);
   if (r.atlas && !comparable) {
-    withhold(r);
+    detail::withhold(r);
     steps.leaveOut("difference", "one of the two runs is no answer");
   }
   steps.run("difference", [&](const Progress&) {
     r.difference = comparison::compare(r.model, r.primary, *r.atlas, vessels.centreline_lps_mm);
   });
-  if (const std::string doubt = doubtOf(r); !doubt.empty()) r.warnings.push_back(doubt);
+  if (const std::string doubt = detail::doubtOf(r); !doubt.empty()) r.warnings.push_back(doubt);
   if (needs.pictures) {
     steps.run("liver-surface",
               [&](const Progress&) { r.picture = detail::retractionScene(scene, inputs, cells, r, vessels); });

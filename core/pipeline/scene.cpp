@@ -193,6 +193,19 @@ OutputSpec readOutputs(JsonObject& scene) {
   return out;
 }
 
+/// Scene::named.
+std::vector<std::string> namedIn(const nlohmann::json& root) {
+  std::vector<std::string> named;
+  for (const auto& load : root.value("loads", nlohmann::json::array()))
+    for (const char* key : {"spread_mm", "shape"})
+      if (load.contains(key)) named.emplace_back(key);
+  if (root.contains("model") && root["model"].contains("element")) named.emplace_back("model.element");
+  if (root.contains("solver"))
+    for (const char* key : {"iterations", "tolerance", "preconditioner"})
+      if (root["solver"].contains(key)) named.push_back(std::string("solver.") + key);
+  return named;
+}
+
 }  // namespace
 
 namespace {
@@ -248,6 +261,7 @@ Scene parseScene(const std::string& text, const std::filesystem::path& folder, c
     s.setup.solver = detail::readSolver(o.object("solver"));
     s.setup.condensed = document.root["solver"]["kind"] == "condensed";
   }
+  s.named = namedIn(document.root);
   s.capsuleAsked = o.has("capsule");
   s.setup.capsule = readCapsule(o, s.geometry.kind == GeometrySpec::Kind::Patient   ? retractor
                                    : s.geometry.kind == GeometrySpec::Kind::Mask && found);

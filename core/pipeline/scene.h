@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -58,6 +59,10 @@ struct Scene {
   MaterialSpec material;
   retraction::Setup setup;
   bool capsuleAsked = false;  ///< setup.capsule is what the scene says, not a default
+  /// Settings that other settings may leave without use, as far as the text names them: "spread_mm", "shape",
+  /// "model.element", "solver.iterations", "solver.tolerance", "solver.preconditioner".
+  std::vector<std::string> named;
+  bool names(const std::string& key) const { return std::find(named.begin(), named.end(), key) != named.end(); }
   std::optional<CompareSpec> compare;
   OutputSpec outputs;
   std::filesystem::path folder;  ///< relative paths of the file are resolved against this

@@ -130,6 +130,7 @@ Json toJson(const retraction::SupportSpec& s, const std::filesystem::path& folde
 
 struct LoadToJson {
   const std::filesystem::path& folder;
+  bool spread, shape;  ///< whether a bar's are to be written where they are defaults
   Json operator()(const retraction::BodyForce& l) const {
     return {{"kind", "body_force"}, {"N_per_m3", toJson(l.N_per_m3)}};
   }
@@ -144,22 +145,24 @@ struct LoadToJson {
     return j;
   }
   Json operator()(const retraction::Retractor& l) const {
-    Json j = {
-        {"kind", "retractor"}, {"diameter_mm", l.diameter_mm}, {"length_mm", l.length_mm}, {"spread_mm", l.spread_mm}};
+    Json j = {{"kind", "retractor"}, {"diameter_mm", l.diameter_mm}, {"length_mm", l.length_mm}};
+    if (spread || l.spread_mm != retraction::Retractor{}.spread_mm) j["spread_mm"] = l.spread_mm;
     j["at"] = l.at_mm ? toJson(*l.at_mm) : Json("inferior-right-lobe");
     if (l.travel_mm)
       j["drive"] = {{"travel_mm", *l.travel_mm}};
     else
       j["force"] = l.force_N ? Json(*l.force_N) : Json("liver-weight");
     if (l.contact) j["contact"] = *l.contact == retraction::ContactKind::Rigid ? "rigid" : "patch";
-    if (l.shape == retraction::BarShape::Hook) j["shape"] = "hook";
+    if (shape || l.shape == retraction::BarShape::Hook)
+      j["shape"] = l.shape == retraction::BarShape::Hook ? "hook" : "straight";
     j["direction"] = toJson(l.direction);
     if (l.axis) j["axis"] = toJson(*l.axis);
     return j;
   }
 };
 
-Json toJson(const retraction::ModelSpec& m) {
+/// element: whether that of hexahedra is to be written where it is the default.
+Json toJson(const retraction::ModelSpec& m, bool element) {
   if (m.kind == retraction::ModelKind::Meshfree)
     return {{"kind", "meshfree"},
             {"frames", m.meshfree.frames},
@@ -176,10 +179,11 @@ Json toJson(const retraction::ModelSpec& m) {
     }
     return j;
   }
-  const char* element = m.element == mechanics::HexElement::H8     ? "H8"
-                        : m.element == mechanics::HexElement::BBar ? "H8-Bbar"
-                                                                   : "H8-incompatible";
-  return {{"kind", "fem-hex"}, {"element", element}};
+  if (!element && m.element == mechanics::HexElement::Incompatible) return {{"kind", "fem-hex"}};
+  return {{"kind", "fem-hex"},
+          {"element", m.element == mechanics::HexElement::H8     ? "H8"
+                      : m.element == mechanics::HexElement::BBar ? "H8-Bbar"
+                                                                 : "H8-incompatible"}};
 }
 
 Json toJson(const retraction::AnalysisSpec& a) {
@@ -191,7 +195,9 @@ Json toJson(const retraction::AnalysisSpec& a) {
           {"stop_when_steady", a.stopWhenSteady}};
 }
 
-Json solverToJson(const retraction::Setup& s) {
+/// used: whether the scene's solver takes them; else they are written where the scene names them.
+Json solverToJson(const Scene& scene, bool used) {
+  const retraction::Setup& s = scene.setup;
   using mechanics::Preconditioner;
   using mechanics::SolverKind;
   Json j;
@@ -200,9 +206,12 @@ Json solverToJson(const retraction::Setup& s) {
               : s.solver.kind == SolverKind::Factorised ? "factorised"
               : s.solver.kind == SolverKind::Multigrid  ? "multigrid"
                                                         : "auto";
-  j["iterations"] = s.solver.iterations;
-  j["tolerance"] = s.solver.tolerance;
-  if (s.solver.kind == SolverKind::Cg)
+  const mechanics::SolverOptions usual;
+  if (used || scene.names("solver.iterations") || s.solver.iterations != usual.iterations)
+    j["iterations"] = s.solver.iterations;
+  if (used || scene.names("solver.tolerance") || s.solver.tolerance != usual.tolerance)
+    j["tolerance"] = s.solver.tolerance;
+  if (s.solver.kind == SolverKind::Cg && (used || scene.names("solver.preconditioner")))
     j["preconditioner"] = s.solver.preconditioner == Preconditioner::None     ? "none"
                           : s.solver.preconditioner == Preconditioner::Jacobi ? "jacobi"
                                                                               : "block-jacobi";
@@ -220,16 +229,19 @@ std::string toJson(const Scene& scene) {
   j["supports"] = Json::array();
   for (const auto& support : s.supports) j["supports"].push_back(toJson(support, scene.folder));
   j["loads"] = Json::array();
-  for (const auto& load : s.loads) j["loads"].push_back(std::visit(LoadToJson{scene.folder}, load));
-  j["model"] = toJson(s.model);
+  // What this scene leaves without use is written where it is named, so that reading it again says the same of it.
+  const bool bar = retraction::wantsRigidBar(s);
+  const LoadToJson loadToJson{scene.folder, !bar || scene.names("spread_mm"), scene.names("shape")};
+  for (const auto& load : s.loads) j["loads"].push_back(std::visit(loadToJson, load));
+  j["model"] = toJson(s.model, !bar || scene.names("model.element"));
   j["kinematics"] = nameOf(s.kinematics);
   // Where nothing would use it, a capsule that nobody asked for stays a default.
-  if (scene.capsuleAsked || retraction::wantsRigidBar(s))
+  if (scene.capsuleAsked || bar)
     j["capsule"] = s.capsule ? Json{{"tension_N_per_mm", s.capsule->tension_N_per_mm},
                                     {"form", s.capsule->form == retraction::CapsuleForm::Membrane ? "membrane" : "cells"}}
                              : Json(false);
   j["analysis"] = toJson(s.analysis);
-  j["solver"] = solverToJson(s);
+  j["solver"] = solverToJson(scene, !bar && s.kinematics != retraction::Kinematics::Hyperelastic);
   if (scene.compare)
     j["compare"] = {
         {"against", "atlas"},

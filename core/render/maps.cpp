@@ -232,8 +232,11 @@ Picture differencePicture(const RetractionScene& scene, const MapOptions& option
   frame.caption = scene.caption.empty() ? options.caption : scene.caption;
   frame.mark = scene.mark;
   frame.ring_lps_mm = options.ring_lps_mm;
-  frame.colourBar =
-      ColourBar{.map = map, .low = options.low, .high = top, .title = "|u MRE − u atlas| (mm)", .mark = limit};
+  frame.colourBar = ColourBar{.map = map,
+                              .low = options.low,
+                              .high = top,
+                              .title = "|u " + scene.stiffness + " − u atlas| (mm)",
+                              .mark = limit};
   frame.colourBar->markColour = isolineColour;
   return frameSlice(picture, frame);
 }

@@ -40,6 +40,9 @@ struct RetractionScene {
   double retractorDiameter_mm = 10.0;
   double retractorLength_mm = 80.0;
   double clinicallySignificant_mm = 5.0;
+  /// False: there is one answer only, and u_atlas_mm repeats it. What is drawn then tells of that answer alone.
+  bool compared = true;
+  std::string stiffness = "MRE";  ///< what the first answer's stiffness is called in legends
   std::string caption;  ///< method line under the picture; holds no patient text
   std::string mark;     ///< a reservation in words ("outside linear theory: ..."), shown in orange; may be empty
   bool valid = true;    ///< false: a "not converged / outside validity" mark is drawn across
@@ -77,7 +80,8 @@ Picture sliceOverlay(const RetractionScene& scene, const SliceOverlayOptions& op
 /// Several slices of one scene: what they share is made once; each picture is the one that sliceOverlay gives.
 std::vector<Picture> sliceOverlays(const RetractionScene& scene, const std::vector<SliceOverlayOptions>& options);
 
-/// Slice index with the largest difference between the two fields inside the liver.
+/// Slice index with the largest difference between the two fields inside the liver; of one answer with its largest
+/// displacement.
 int sliceOfLargestDifference(const RetractionScene& scene);
 
 struct CountedPixels {

@@ -99,13 +99,14 @@ void Picture3D::answers() {
 
   const auto paint = [&](Rgb own) -> Paint {
     return [&, own](const Eigen::Vector3d& p) {
+      if (!scene_.compared) return own;
       const double apart = options_.t * (mre.at(p) - atlas.at(p)).norm();
       return mixed(colour_.agree, own, std::clamp(apart / apart_mm, 0.0, 1.0));
     };
   };
   const Motion byMre = moving(mre, options_.t), byAtlas = moving(atlas, options_.t);
   if (scene_.vesselSurface.triangles.cols() > 0) {
-    stage_.add(solidSurface(scene_.vesselSurface, byAtlas, paint(colour_.atlas)));
+    if (scene_.compared) stage_.add(solidSurface(scene_.vesselSurface, byAtlas, paint(colour_.atlas)));
     stage_.add(solidSurface(scene_.vesselSurface, byMre, paint(colour_.mre)));
   }
   if (scene_.bar)
@@ -113,12 +114,14 @@ void Picture3D::answers() {
   else if (scene_.retractorPoint_lps_mm)
     tissueBar(byMre);
   surfaces(byMre, byAtlas);
-  std::vector<LegendRow> legend{{colour_.mre, "MRE stiffness"},
-                                {colour_.atlas, "Atlas stiffness"},
-                                {colour_.agree, "agree"},
-                                {{150, 158, 168}, "liver at rest"}};
+  std::vector<LegendRow> legend{{colour_.mre, scene_.stiffness + " stiffness"}};
+  if (scene_.compared) {
+    legend.push_back({colour_.atlas, "Atlas stiffness"});
+    legend.push_back({colour_.agree, "agree"});
+  }
+  legend.push_back({{150, 158, 168}, "liver at rest"});
   if (scene_.bar)
-    legend.push_back({steelGrey, scene_.bar->atlas ? "bar: MRE steel, atlas glass" : "bar"});
+    legend.push_back({steelGrey, scene_.bar->atlas ? "bar: " + scene_.stiffness + " steel, atlas glass" : "bar"});
   else if (scene_.retractorPoint_lps_mm)
     legend.push_back({steelGrey, "retractor"});
   finish(std::move(legend));
@@ -136,7 +139,7 @@ void Picture3D::surfaces(const Motion& mre, const Motion& atlas) {
   stage_.add(glassSurface(rest, still, restGrey, 0.05, 0.55));
   if (!(options_.t > 0.0)) return;
   if (!exact) {
-    glass(rest, atlas, colour_.atlas);
+    if (scene_.compared) glass(rest, atlas, colour_.atlas);
     glass(rest, mre, colour_.mre);
     return;
   }
@@ -204,8 +207,9 @@ void Picture3D::pressure() {
     stage_.add(glassSurface(barAfter(scene_, contact, options_.t), still, steelGrey, 0.10, 0.95));
   }
   const Rgb own = ofMre ? colour_.mre : colour_.atlas;
-  std::vector<LegendRow> legend{{own, ofMre ? "contact, MRE stiffness" : "contact, atlas stiffness"},
-                                {pressureColour(0.9), inWords(contact.resultant_N, 1, "N") + " on " +
+  std::vector<LegendRow> legend{{own, "contact, " + (ofMre ? scene_.stiffness : std::string("atlas")) + " stiffness"},
+                                {pressureColour(0.9), inWords(contact.force_N, 1, "N along the hoist")},
+                                {pressureColour(0.9), inWords(contact.resultant_N, 1, "N in all, on ") +
                                                           inWords(1e-2 * contact.area_mm2, 1, "cm²")},
                                 {pressureColour(0.0), "liver, retracted"},
                                 {steelGrey, "bar (see-through)"}};

@@ -231,7 +231,7 @@ class Composer {
   State mre_, atlas_;
 };
 
-/// Largest ‖u_mre − u_atlas‖ over liver voxels of the slice, mm.
+/// Largest ‖u_mre − u_atlas‖ over liver voxels of the slice, mm; of one answer the largest ‖u‖.
 double largestDifferenceInSlice_mm(const RetractionScene& scene, int k) {
   const image::Grid& grid = scene.mri.grid;
   const LpsToIndex toLiver(scene.liver.grid), toMre(scene.u_mre_mm.grid), toAtlas(scene.u_atlas_mm.grid);
@@ -241,7 +241,8 @@ double largestDifferenceInSlice_mm(const RetractionScene& scene, int k) {
     for (int i = 0; i < grid.size.x(); ++i) {
       const Eigen::Vector3d p = grid.indexToLps(Eigen::Vector3i(i, j, k).cast<double>());
       if (sampleLinear(liver, toLiver(p)) < 0.5F) continue;
-      const Eigen::Vector3f d = sampleLinear(scene.u_mre_mm, toMre(p)) - sampleLinear(scene.u_atlas_mm, toAtlas(p));
+      Eigen::Vector3f d = sampleLinear(scene.u_mre_mm, toMre(p));
+      if (scene.compared) d -= sampleLinear(scene.u_atlas_mm, toAtlas(p));
       largest = std::max(largest, static_cast<double>(d.norm()));
     }
   return largest;
@@ -285,6 +286,23 @@ void paintArrows(Picture& picture, const SlicePlane& plane, const std::vector<Di
   paintArrow(painter, from, from + Point(length, 0.0), colours::light, width);
 }
 
+/// Both answers and where they agree, or the one that there is: both channels together.
+std::vector<LegendItem> legendOf(const RetractionScene& scene, bool redBlue) {
+  const Rgb both = redBlue ? Rgb{214, 40, 255} : Rgb{255, 255, 255};
+  if (!scene.compared) return {{both, scene.stiffness + " stiffness"}};
+  return {{redBlue ? Rgb{40, 60, 255} : Rgb{0, 115, 255}, scene.stiffness},
+          {redBlue ? Rgb{255, 30, 30} : Rgb{255, 140, 0}, "Atlas"},
+          {both, "agree"}};
+}
+
+std::string largestInSlice(const RetractionScene& scene, int k) {
+  const double largest_mm = largestDifferenceInSlice_mm(scene, k);
+  if (!scene.compared) return formatted(". Largest displacement in this slice: %.1f mm.", largest_mm);
+  return ". Largest " + scene.stiffness +
+         formatted("-atlas difference in this slice: %.1f mm (clinically significant: %g mm).", largest_mm,
+                   scene.clinicallySignificant_mm);
+}
+
 Picture overlayOf(const Composer& composer, const RetractionScene& scene, const SliceOverlayOptions& options) {
   if (!(options.grid_mm > 0.0) || !(options.zoom_mm > 0.0))
     throw BadArgument("grid spacing and zoom width must be positive millimetres");
@@ -305,13 +323,9 @@ Picture overlayOf(const Composer& composer, const RetractionScene& scene, const 
   if (!options.decorate) return picture;
 
   SliceFrame frame{.plane = plane};
-  frame.legend = {{redBlue ? Rgb{40, 60, 255} : Rgb{0, 115, 255}, "MRE"},
-                  {redBlue ? Rgb{255, 30, 30} : Rgb{255, 140, 0}, "Atlas"},
-                  {redBlue ? Rgb{214, 40, 255} : Rgb{255, 255, 255}, "agree"},
-                  {colours::gridGreen, formatted("grid %g mm", options.grid_mm), true}};
-  frame.notes = {formatted("Slice %.0f of %.0f", k + 1, scene.mri.grid.size.z()) +
-                     formatted(". Largest MRE-atlas difference in this slice: %.1f mm (clinically significant: %g mm).",
-                               largestDifferenceInSlice_mm(scene, k), scene.clinicallySignificant_mm),
+  frame.legend = legendOf(scene, redBlue);
+  frame.legend.push_back({colours::gridGreen, formatted("grid %g mm", options.grid_mm), true});
+  frame.notes = {formatted("Slice %.0f of %.0f", k + 1, scene.mri.grid.size.z()) + largestInSlice(scene, k),
                  "Surroundings of the liver are not simulated: shown at rest, dimmed."};
   if (options.arrows) frame.notes.push_back("Arrows: displacement from rest in the plane of the slice, true to scale.");
   frame.caption = scene.caption;

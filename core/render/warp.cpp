@@ -37,7 +37,8 @@ int sliceOfLargestDifference(const RetractionScene& scene) {
         for (int i = 0; i < grid.size.x(); ++i) {
           const Eigen::Vector3d p = grid.indexToLps(Eigen::Vector3i(i, j, static_cast<int>(k)).cast<double>());
           if (sampleLinear(liver, toLiver(p)) < 0.5F) continue;
-          const Eigen::Vector3f d = sampleLinear(scene.u_mre_mm, toMre(p)) - sampleLinear(scene.u_atlas_mm, toAtlas(p));
+          Eigen::Vector3f d = sampleLinear(scene.u_mre_mm, toMre(p));
+          if (scene.compared) d -= sampleLinear(scene.u_atlas_mm, toAtlas(p));
           largest[k] = std::max(largest[k], static_cast<double>(d.norm()));
         }
   });

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "base/diagnostic.h"
 #include "base/error.h"
 #include "mechanics/measures.h"
 #include "retraction/body.h"
 #include "retraction/discretisation.h"
+#include "retraction/offered.h"
 
 namespace glisson::retraction {
 namespace {
@@ -123,23 +125,59 @@ bool kinematicsValid(const Result& result) {
   return result.linearGap->known ? result.linearGap->trusted() : result.linearTrusted;
 }
 
+bool linearValid(const Result& r) {
+  constexpr double strain = 0.10, rotation_deg = 15;  // as mechanics::validity
+  if (r.kinematics == Kinematics::Linear) return r.linearTrusted;
+  if (!r.linearTrusted) return false;
+  if (r.linearGap && r.linearGap->known) return r.linearGap->trusted();
+  return r.p95_strain < strain && r.max_rotation_deg < rotation_deg;
+}
+
+LinearGap gapBetween(const Model& model, const Result& linear, const Result& large,
+                     const std::vector<Eigen::Vector3d>& landmarks_mm) {
+  LinearGap gap;
+  gap.known = true;
+  const Body body(model);
+  fill(body, large.nodal_u_m - linear.nodal_u_m, {}, landmarks_mm, gap);
+  double sum = 0.0, weight = 0.0;
+  const auto there = [&](double apart_mm, double w) {
+    sum += w * apart_mm;
+    weight += w;
+    gap.max_mm = std::max(gap.max_mm, apart_mm);
+  };
+  // At the bar: what either answer holds.
+  if (linear.contact && large.contact) {
+    const RigidContact &a = *linear.contact, &b = *large.contact;
+    for (std::size_t i = 0; i < a.sample_mm.size(); ++i)
+      if (a.pressure_kPa[i] > 0.0 || b.pressure_kPa[i] > 0.0)
+        there((a.sample_u_mm[i] - b.sample_u_mm[i]).norm(), a.sample_mm2[i]);
+  }
+  for (const int node : large.contactNodes)
+    there(mToMm * (large.nodal_u_m.col(node) - linear.nodal_u_m.col(node)).norm(), 1.0);
+  if (weight > 0.0) gap.at_retractor_mm = sum / weight;
+  return gap;
+}
+
+void putGap(const Setup& setup, LinearGap found, Result& result) {
+  result.linearGap = std::move(found);
+  const LinearGap& gap = *result.linearGap;
+  if (gap.stability == mechanics::Stability::Unstable) {
+    result.linearTrusted = false;
+    result.doubt(DiagnosticCode::LinearUnstable, {{"instead", wayToLargeDeformation(setup)}});
+  } else if (gap.known && !gap.trusted()) {
+    result.doubt(DiagnosticCode::LinearGapLarge,
+                 {{"missed_mm", gap.landmarks_max_mm.value_or(gap.max_mm)},
+                  {"where", std::string(gap.landmarks_max_mm ? "at the vessels" : "in the body")},
+                  {"limit_mm", LinearGap::limit_mm},
+                  {"instead", wayToLargeDeformation(setup)}});
+  }
+}
+
 void judgeByGap(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& landmarks_mm,
                 Result& result, const Progress& progress) {
   if (result.kinematics != Kinematics::Linear || result.contact || !result.solver.converged() || result.linearGap)
     return;
-  result.linearGap = linearGap(model, setup, result, landmarks_mm, progress);
-  const LinearGap& gap = *result.linearGap;
-  Diagnostics said;
-  if (gap.stability == mechanics::Stability::Unstable) {
-    result.linearTrusted = false;
-    said.add(DiagnosticCode::LinearUnstable);
-  } else if (gap.known && !gap.trusted()) {
-    said.add(DiagnosticCode::LinearGapLarge,
-             {{"missed_mm", gap.landmarks_max_mm.value_or(gap.max_mm)},
-              {"where", std::string(gap.landmarks_max_mm ? "at the vessels" : "in the body")},
-              {"limit_mm", LinearGap::limit_mm}});
-  }
-  for (std::string& text : said.texts()) result.validity.push_back(std::move(text));
+  putGap(setup, linearGap(model, setup, result, landmarks_mm, progress), result);
 }
 
 }  // namespace glisson::retraction

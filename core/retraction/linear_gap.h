@@ -19,7 +19,7 @@ struct LinearGap {
   bool known = false;  ///< false: see why
   mechanics::Stability stability = mechanics::Stability::Unknown;
   double mean_mm = 0.0;                    ///< over the cells
-  double max_mm = 0.0;                     ///< over the nodes
+  double max_mm = 0.0;                     ///< over the nodes, the contact and the landmarks: none below is larger
   std::optional<double> at_retractor_mm;   ///< mean over the nodes of the contact
   std::optional<double> landmarks_max_mm;  ///< largest over the landmarks inside the body, where there are any
   std::string why;
@@ -35,6 +35,16 @@ struct LinearGap {
 /// says.
 bool kinematicsValid(const Result& result);
 
+/// Whether linear theory would do for this scene. Of a linear result as Result::linearTrusted says; of one in other
+/// kinematics the gap is known and trusted or, where it is not known, strain and rotation of the answer are within the
+/// limits of linear theory.
+bool linearValid(const Result& result);
+
+/// How far a linear answer is from one in other kinematics, both of the same scene: what linear theory misses, measured
+/// and not estimated by a correction.
+LinearGap gapBetween(const Model& model, const Result& linear, const Result& large,
+                     const std::vector<Eigen::Vector3d>& landmarks_mm);
+
 /// By one corotational Newton correction (mechanics::linearGap) on the model's voxels, whatever mesh gave the linear
 /// result, or on cells of twice the edge (again and again) where the voxels have more than largestDofs degrees of
 /// freedom: the correction is as smooth as what it corrects, and costs an eighth. landmarks_mm: LPS. Costs the assembly
@@ -42,6 +52,10 @@ bool kinematicsValid(const Result& result);
 LinearGap linearGap(const Model& model, const Setup& setup, const Result& result,
                     const std::vector<Eigen::Vector3d>& landmarks_mm, const Progress& progress = {},
                     int largestDofs = 60000);
+
+/// Puts a gap into a linear result; what is wrong with it joins the result's doubts, and an unstable body takes away
+/// Result::linearTrusted.
+void putGap(const Setup& setup, LinearGap gap, Result& result);
 
 /// Puts the gap into a converged linear result; what is wrong with it joins the result's validity, and an unstable body
 /// takes away Result::linearTrusted. Does nothing for other results, nor where the result has its gap already. Throws

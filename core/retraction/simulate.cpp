@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
 #include <sstream>
+#include <utility>
 
 #include "base/error.h"
 #include "mechanics/dynamics.h"
@@ -16,8 +16,10 @@
 #include "mechanics/tet_solve.h"
 #include "retraction/body.h"
 #include "retraction/condensed_solve.h"
+#include "retraction/contact_path.h"
 #include "retraction/delaunay_solve.h"
 #include "retraction/rigid_contact.h"
+#include "retraction/smooth_body.h"
 
 namespace glisson::retraction {
 namespace {
@@ -192,56 +194,129 @@ std::vector<Eigen::Vector3d> interpolate(const Body& body, const mechanics::Noda
   return out;
 }
 
-std::string slipInWords(const RigidContact& c) {
-  std::ostringstream text;
-  text.precision(3);
-  if (!(c.asked_N > 0.0)) {
-    text << "the body gives way under the bar: " << c.capacity_N << " N is the most it bore, and after " << c.travel_mm
-         << " mm no further travel is found; choose a place where it is thicker and level across the bar, or a smaller travel";
-    return text.str();
-  }
-  text << "the bar slips at " << c.capacity_N << " N after " << c.travel_mm << " mm: the liver does not bear " << c.asked_N
-       << " N at this place; choose one where it is thicker and level across the bar, or a smaller force";
-  return text.str();
+std::string askedOf(const RigidContact& c) {
+  std::ostringstream t;
+  t.precision(3);
+  if (c.asked_N > 0.0)
+    t << c.asked_N << " N";
+  else
+    t << "a travel of " << c.asked_mm << " mm";
+  return t.str();
 }
 
-/// The verdict and its reasons, in words.
-void judge(const Body& body, const mechanics::Solution& s, Result& r) {
+/// The bar did not get to what was asked for, or only behind a limit: says so. False where there is nothing to say.
+bool doubtOfBar(const RigidContact& c, const std::string& stiffness, Result& r) {
+  constexpr double pastLimit = 0.98;  // of the largest force
+  const auto failed = [&](DiagnosticCode code) {
+    r.doubt(code, {{"capacity_N", c.capacity_N},
+                   {"capacity_travel_mm", travelAtCapacity(c)},
+                   {"travel_mm", c.travel_mm},
+                   {"stiffness", stiffness},
+                   {"asked", askedOf(c)},
+                   {"asked_N", c.asked_N},
+                   {"asked_mm", c.asked_mm}});
+    return true;
+  };
+  switch (c.outcome) {
+    case BarOutcome::Slips:
+      return failed(DiagnosticCode::RetractorSlips);
+    case BarOutcome::Folds:
+      return failed(DiagnosticCode::RetractorFolds);
+    case BarOutcome::Cuts:
+      return failed(DiagnosticCode::RetractorCuts);
+    case BarOutcome::LoadsNotBorne:
+      r.doubt(DiagnosticCode::LoadsNotBorne, {{"stiffness", stiffness},
+                                              {"residual", r.solver.residual},
+                                              {"tolerance", r.solver.tolerance}});
+      return true;
+    case BarOutcome::Reached:
+      if (const double along_N = c.force_N.dot(c.hoist); c.asked_mm > 0.0 && along_N < pastLimit * c.capacity_N) {
+        r.doubt(DiagnosticCode::RetractorPastLimit,
+                {{"force_N", along_N}, {"capacity_N", c.capacity_N}, {"stiffness", stiffness}});
+        return true;
+      }
+      return false;
+    case BarOutcome::Stopped:
+      return false;
+  }
+  return false;
+}
+
+/// Share of each cell of the body that lies inside the smooth one.
+std::vector<float> coveredOf(const Model& model, const Body& body) {
+  std::vector<float> covered;
+  const image::ScalarVolume fraction = model.smooth->fractions(model.youngs_kPa.grid);
+  const Eigen::Vector3i layers = (fraction.grid.size - model.youngs_kPa.grid.size) / 2;
+  for (int cell = 0; cell < body.mesh().cellCount(); ++cell)
+    covered.push_back(fraction.at(body.mesh().cellOf(cell) + layers));
+  return covered;
+}
+
+/// The figures of strain and rotation. With a rigid bar on a smooth body only of cells that hold enough tissue.
+mechanics::DeformationSummary measured(const Model& model, const Body& body, const mechanics::NodalField& u_m,
+                                       Result& r) {
   const bool linear = r.kinematics == Kinematics::Linear;
-  const mechanics::DeformationSummary m = mechanics::summarise(
-      body.mesh(), s.u_m, linear ? mechanics::StrainMeasure::Small : mechanics::StrainMeasure::Biot);
+  const mechanics::CellMeasures cells = mechanics::measureCells(
+      body.mesh(), u_m, linear ? mechanics::StrainMeasure::Small : mechanics::StrainMeasure::Biot);
+  const mechanics::DeformationSummary m = r.contact && model.smooth
+                                              ? mechanics::summarise(cells, u_m, coveredOf(model, body))
+                                              : mechanics::summarise(cells, u_m);
   r.max_displacement_mm = mToMm * m.maxDisplacement_m;
   r.max_strain = m.maxStrain;
   r.p95_strain = m.p95Strain;
   r.p99_strain = m.p99Strain;
   r.fraction_over_10pct = m.fractionAbove10;
   r.max_rotation_deg = m.maxRotation_deg;
-  mechanics::DeformationSummary judged = m;
+  r.cellsLeftOut = m.cellsLeftOut;
+  return m;
+}
+
+/// The verdict and its reasons.
+void judge(const Model& model, const Body& body, const mechanics::Solution& s, Result& r) {
+  constexpr double corotationalStrain = 0.10;
+  const bool linear = r.kinematics == Kinematics::Linear, converged = s.report.converged();
+  mechanics::DeformationSummary judged = measured(model, body, s.u_m, r);
   if (!linear) judged.maxRotation_deg = judged.p95Strain = judged.fractionAbove10 = 0;  // no limits to these
   const mechanics::Validity validity = mechanics::validity(body.mesh(), judged);
-  r.linearTrusted = validity.linearTrusted && s.report.converged();
-  r.validity = validity.warnings;
-  r.drawable = s.report.converged() && !validity.invalid;
+  const bool folded = r.contact && !(r.contact->smallestJ > 0);
+  const bool said = r.contact && doubtOfBar(*r.contact, model.stiffness, r);
+  if (!converged && !said)
+    r.doubt(DiagnosticCode::NotConverged,
+            {{"stiffness", model.stiffness},
+             {"status", mechanics::describe(s.report.status) + (linear ? "" : " (" + s.report.why + ")")}});
+  r.linearTrusted = validity.linearTrusted && converged;
+  r.drawable = converged && !validity.invalid;
   if (r.contact && !linear) {
     // Cut cells that the bar folds say nothing about the body; the mean volume of those that count does.
-    r.validity.clear();
-    r.drawable = s.report.converged();
-    r.linearTrusted = r.drawable && r.contact->smallestJ > 0;
-    if (r.drawable && !r.linearTrusted)
-      r.validity.push_back("the bar folds the surface: a cell there is turned inside out, and places within a cell of it "
-                           "are not to be trusted");
+    r.drawable = converged;
+    r.linearTrusted = r.drawable && !folded;
+    if (r.drawable && folded) r.doubt(DiagnosticCode::BarFoldsSurface);
+  } else {
+    // Linear theory has no state with a cell inside out: where the bar makes one, the answer is none.
+    if (folded) {
+      r.drawable = r.linearTrusted = false;
+      if (judged.invertedCells == 0) r.doubt(DiagnosticCode::BarFoldsSurface);
+    }
+    r.doubts.add(validity.said);
   }
-  if (r.kinematics == Kinematics::Corotational && m.p95Strain >= 0.10) {
+  if (r.kinematics == Kinematics::Corotational && r.p95_strain >= corotationalStrain) {
     r.linearTrusted = false;
-    r.validity.push_back(
-        "outside corotational theory, whose strains are small: 5 % of the volume strains by more than " +
-        std::to_string(std::lround(100 * m.p95Strain)) + " % (limit 10 %); use hyperelastic kinematics");
+    r.doubt(DiagnosticCode::StrainBeyondCorotational,
+            {{"percent", 100 * r.p95_strain}, {"limit_percent", 100 * corotationalStrain}});
   }
-  if (r.contact && r.contact->slipped) r.validity.insert(r.validity.begin(), slipInWords(*r.contact));
-  if (!s.report.converged() && !(r.contact && r.contact->slipped))
-    r.validity.insert(r.validity.begin(), "the solve did not converge: " + mechanics::describe(s.report.status) +
-                                              (linear ? "" : " (" + s.report.why + ")") +
-                                              "; these numbers are not the answer");
+  r.validity = r.doubts.texts();
+}
+
+void noteProbes(const std::vector<Eigen::Vector3d>& probe_u_mm, Diagnostics& said) {
+  std::string outside;
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < probe_u_mm.size(); ++i) {
+    if (probe_u_mm[i].allFinite()) continue;
+    outside += (count++ == 0 ? "" : ", ") + std::to_string(i);
+  }
+  if (count > 0)
+    said.add(DiagnosticCode::ProbesOutside,
+             {{"count", count}, {"of", static_cast<std::int64_t>(probe_u_mm.size())}, {"probes", outside}});
 }
 
 Result readBack(const Model& model, const Body& body, const MechanicsScene& scene, const Setup& setup, Answer answer,
@@ -270,8 +345,8 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
     r.retractorPoint_mm = middle + r.contact->barRadius_mm * r.contact->hoist;
     r.contactArea_mm2 = r.contact->footprint_mm2;
   }
-  judge(body, s, r);
-  for (const std::string& limit : answer.limits) r.validity.push_back("mesh-free model: " + limit);
+  judge(model, body, s, r);
+  for (const std::string& limit : answer.limits) r.doubt(DiagnosticCode::MeshfreeLimited, {{"limit", limit}});
   if (answer.useless) r.drawable = r.linearTrusted = false;
   if (scene.contact) {
     r.retractorPoint_mm = scene.contact->centre_mm;
@@ -286,9 +361,7 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
     r.contactNodes.erase(std::unique(r.contactNodes.begin(), r.contactNodes.end()), r.contactNodes.end());
   }
   r.probe_u_mm = interpolate(body, s.u_m, probes_mm);
-  for (std::size_t i = 0; i < probes_mm.size(); ++i)
-    if (!r.probe_u_mm[i].allFinite())
-      r.notes.push_back("probe " + std::to_string(i) + " lies outside the body: it has no displacement");
+  noteProbes(r.probe_u_mm, r.diagnostics);
   r.nodal_u_m = std::move(answer.solution.u_m);
   return r;
 }

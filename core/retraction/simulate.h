@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/diagnostic.h"
@@ -27,6 +28,7 @@ struct Model {
   std::size_t cells = 0;
   double volume_mL = 0.0;
   double mass_kg = 0.0;
+  std::string stiffness = "own";  ///< which of two this is, as messages and codes name it: "own" or "atlas"
   /// The body behind the cells where it comes from a mask, shared by all models of it; null for boxes, and where no
   /// retractor asks for it.
   std::shared_ptr<const SmoothBody> smooth;
@@ -50,7 +52,7 @@ enum class BarOutcome {
 struct RigidContact {
   BarOutcome outcome = BarOutcome::Reached;
   double travel_mm = 0.0;             ///< of the bar from its first touch, along the hoist
-  double capacity_N = 0.0;            ///< largest force met on the way
+  double capacity_N = 0.0;            ///< largest force met on the way; at which travel: travelAtCapacity
   bool capacityExceeded = false;      ///< the force fell beyond it
   bool slipped = false;               ///< what was asked for is more than the liver bears at this place
   double asked_N = 0.0;               ///< force asked for; 0 where the travel was
@@ -101,9 +103,16 @@ struct Result {
   /// Corotational: converged, no inverted cell, and p95 strain below 10 % (its strains are small-strain). Hyperelastic:
   /// converged, no inverted cell.
   bool linearTrusted = false;
-  std::optional<LinearGap> linearGap;  ///< where judgeByGap found it
-  std::vector<std::string> validity;   ///< warnings in words, most serious first
+  std::size_t cellsLeftOut =
+      0;  ///< of strain and rotation: cut to less than mechanics::leastCovered by the smooth surface
+  std::optional<LinearGap> linearGap;  ///< where judgeByGap found it, or the answer in other kinematics
+  Diagnostics doubts;                  ///< what is said against the answer, most serious first
+  std::vector<std::string> validity;   ///< the same in words
   bool drawable = true;                ///< false: not converged, inverted cells, displacement larger than the body
+  void doubt(DiagnosticCode code, std::vector<std::pair<std::string, DiagnosticValue>> arguments = {}) {
+    doubts.add(code, std::move(arguments));
+    validity = doubts.texts();
+  }
   std::optional<Eigen::Vector3d> retractorPoint_mm;  ///< centre of the contact
   double contactArea_mm2 = 0.0;                      ///< that bears on the liver, seen along the hoist
   std::vector<int> contactNodes;                     ///< of a patch

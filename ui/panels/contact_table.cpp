@@ -43,7 +43,8 @@ QString nameOf(retraction::Kinematics kinematics) {
 QString whyNoDifference(const pipeline::RunResult& result) {
   QStringList words;
   for (const Diagnostic& d : result.diagnostics)
-    if (d.code == DiagnosticCode::DifferenceWithheld || d.code == DiagnosticCode::RetractorSlips)
+    if (d.code == DiagnosticCode::DifferenceWithheld || d.code == DiagnosticCode::RetractorSlips ||
+        d.code == DiagnosticCode::RetractorFolds || d.code == DiagnosticCode::RetractorCuts)
       words << sentence(d.text());
   return words.join(QLatin1Char('\n'));
 }

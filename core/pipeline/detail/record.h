@@ -38,7 +38,4 @@ struct Motion {
 };
 Motion motionOf(const retraction::Model& model, const retraction::Result& result);
 
-/// Where linear theory was used outside its limits: which kinematics to choose and what that changes. Else empty.
-std::string adviceOn(const retraction::Result& result);
-
 }  // namespace glisson::pipeline::detail

@@ -95,7 +95,7 @@ TEST(Measures, NonsenseIsInvalid) {
   NodalField u = linear(mesh, Eigen::Vector3d(-1, 1, 1).asDiagonal());
   Validity v = validity(mesh, summarise(mesh, u));
   EXPECT_TRUE(v.invalid);
-  EXPECT_TRUE(mentions(v, "24 cells are turned inside out"));
+  EXPECT_TRUE(mentions(v, "cells turned inside out: 24"));
   u.setConstant(0.2);
   v = validity(mesh, summarise(mesh, u));
   EXPECT_TRUE(v.invalid);
@@ -107,6 +107,43 @@ TEST(Measures, NonsenseIsInvalid) {
   u(3) = std::nan("");
   EXPECT_THROW(summarise(mesh, u), BadInput);
   EXPECT_THROW(summarise(mesh, NodalField::Zero(3, 4)), BadArgument);
+}
+
+TEST(Measures, CellsWithLittleTissueAreLeftOutAndTheOthersCountForWhatTheyHold) {
+  const VoxelMesh mesh(test::box({10, 1, 1}, {0.1, 0.01, 0.01}, 1, 0));
+  NodalField u = NodalField::Zero(3, mesh.nodeCount());
+  for (int node = 0; node < mesh.nodeCount(); ++node) {
+    const double i = mesh.latticeOf(node).x();  // cell i strains by (i + 1) / 100
+    u(0, node) = 0.01 * (0.5 * i * (i + 1)) / 100;
+    if (mesh.latticeOf(node).x() == 10) u(0, node) -= 0.05;  // the last cell is turned inside out
+  }
+  const CellMeasures cells = measureCells(mesh, u);
+  EXPECT_EQ(summarise(cells, u).invertedCells, 1U);
+  EXPECT_EQ(summarise(cells, u).maxRotation_deg, 180.0);
+  std::vector<float> covered(10, 1.0f);
+  covered[9] = 0.4f;
+  covered[8] = 0.5f;
+  const DeformationSummary s = summarise(cells, u, covered);
+  EXPECT_EQ(s.cellsLeftOut, 1U);
+  EXPECT_EQ(s.invertedCells, 0U);
+  EXPECT_NEAR(s.maxRotation_deg, 0.0, 1e-9);
+  EXPECT_NEAR(s.maxStrain, 0.09, 1e-12);
+  EXPECT_NEAR(s.p95Strain, 0.09, 1e-12);  // the last 5 % lie in the half cell, 1 of 17 parts of the volume
+  covered[8] = 0.4f;
+  EXPECT_NEAR(summarise(cells, u, covered).maxStrain, 0.08, 1e-12);
+  EXPECT_THROW(summarise(cells, u, {1.0f}), BadArgument);
+}
+
+TEST(Measures, WhatIsSaidHasCodesAndValues) {
+  const VoxelMesh mesh(block);
+  const Validity v = validity(mesh, summarise(mesh, linear(mesh, turn(20))));
+  ASSERT_FALSE(v.said.empty());
+  EXPECT_TRUE(v.said.contains(DiagnosticCode::RotationBeyondLinear));
+  EXPECT_EQ(v.warnings, v.said.texts());
+  for (const Diagnostic& d : v.said)
+    if (d.code == DiagnosticCode::RotationBeyondLinear) {
+      EXPECT_NEAR(std::get<double>(d.arguments[0].second), 20.0, 1e-9);
+    }
 }
 
 TEST(Measures, QuantilesCountVolume) {

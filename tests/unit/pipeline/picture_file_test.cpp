@@ -82,6 +82,8 @@ PictureData sample() {
   bar.atlas->pressure_kPa[1] = 0.1F;
   s.caption = "mean 0.7 mm, ν = 0.45";
   s.mark = "outside \"linear\" theory";
+  s.compared = false;
+  s.stiffness = "uniform";
   data.vessel_lps_mm = Vector3d(1e-30, -2.0 / 3.0, 5.0);
   return data;
 }
@@ -126,6 +128,8 @@ TEST_F(PictureFile, givesBackEveryBit) {
   EXPECT_TRUE(b.bar->atlas->slipped && !b.bar->mre.slipped);
   EXPECT_EQ(a.caption, b.caption);
   EXPECT_EQ(a.mark, b.mark);
+  EXPECT_EQ(a.compared, b.compared);
+  EXPECT_EQ(a.stiffness, b.stiffness);
   EXPECT_EQ(a.valid, b.valid);
   EXPECT_EQ(was.vessel_lps_mm, is.vessel_lps_mm);
   // What is written again is the same file.

@@ -172,6 +172,11 @@ TEST(SliceOverlay, sliceOfLargestDifference) {
   EXPECT_EQ(sliceOfLargestDifference(scene), 6);
   scene.u_mre_mm.at(2, 2, 1) = Eigen::Vector3f(0, 90, 0);  // outside the liver: does not count
   EXPECT_EQ(sliceOfLargestDifference(scene), 6);
+  // Of one answer: where it moves most.
+  scene.compared = false;
+  scene.u_mre_mm.at(40, 30, 4) = Eigen::Vector3f(0, 20, 0);
+  scene.u_atlas_mm = scene.u_mre_mm;
+  EXPECT_EQ(sliceOfLargestDifference(scene), 4);
 }
 
 /// An invalid run must not look like a valid one, decorated or not.

@@ -1,0 +1,211 @@
+#include "pipeline/detail/told.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "pipeline/detail/needs.h"
+#include "retraction/offered.h"
+
+namespace glisson::pipeline {
+namespace {
+
+using detail::Needs;
+
+std::string wordOf(bool atlas) {
+  return atlas ? "atlas" : "own";
+}
+
+const retraction::Retractor* barOf(const Scene& scene) {
+  for (const retraction::LoadSpec& load : scene.setup.loads)
+    if (const auto* bar = std::get_if<retraction::Retractor>(&load)) return bar;
+  return nullptr;
+}
+
+/// What of a scene its model and its kinematics pass over.
+void tellOfUnused(const Scene& scene, const Needs& needs, Diagnostics& said) {
+  const retraction::Setup& s = scene.setup;
+  const auto unused = [&](const char* key, const char* why) {
+    said.add(DiagnosticCode::SettingNotUsed, {{"key", std::string(key)}, {"why", std::string(why)}});
+  };
+  if (needs.rigidBar && scene.names("spread_mm"))
+    unused("spread_mm", "the retractor is a rigid bar, whose pressure is found and not given");
+  const retraction::Retractor* bar = barOf(scene);
+  if (bar != nullptr && !needs.rigidBar && (scene.names("shape") || bar->shape == retraction::BarShape::Hook))
+    unused("shape", "a patch of pressure has none but that of the straight bar");
+  if (needs.rigidBar && scene.names("model.element"))
+    unused("model.element", "contact has mean-dilatation hexahedra of its own");
+  if (s.law && (s.kinematics == retraction::Kinematics::Linear || s.kinematics == retraction::Kinematics::Corotational))
+    unused("material.law", "these kinematics have a linear law");
+  if (!retraction::inLargeDeformation(s)) return;
+  constexpr const char* own =
+      "large deformation and contact have a solver of their own, Newton's method with multigrid";
+  if (s.solver.kind != mechanics::SolverKind::Auto) unused("solver.kind", own);
+  if (s.solver.iterations != 0) unused("solver.iterations", own);
+  if (scene.names("solver.preconditioner")) unused("solver.preconditioner", own);
+  if (needs.rigidBar && scene.names("solver.tolerance") && s.solver.tolerance < 1e-6)
+    unused("solver.tolerance", "contact is solved to 1e-6 at best");
+}
+
+}  // namespace
+
+Diagnostics toldOf(const Scene& scene) {
+  const Needs needs(scene);
+  Diagnostics said;
+  if (scene.setup.poisson < 0.0) said.add(DiagnosticCode::PoissonNegative, {{"poisson", scene.setup.poisson}});
+  if (const auto refusal = retraction::patchTakenFor(scene.setup))
+    said.add(DiagnosticCode::PatchTaken,
+             {{"refuses", retraction::nameOf(*refusal)}, {"what", retraction::inWords(*refusal, scene.setup)}});
+  if (scene.capsuleAsked && scene.setup.capsule && !needs.rigidBar)
+    said.add(DiagnosticCode::CapsuleNotUsed,
+             {{"instead",
+               std::string(needs.retractor ? "the retractor is a patch of pressure" : "the scene has no retractor")}});
+  tellOfUnused(scene, needs, said);
+  return said;
+}
+
+namespace detail {
+
+std::string whyKinematics(const Scene& scene, const retraction::Result& r) {
+  if (scene.setup.kinematics != retraction::Kinematics::Auto) return "the scene asks for them";
+  if (r.contact)
+    return "a rigid bar is followed in large deformation: what linear theory would miss is known only once that answer "
+           "is there, and then it is the better one";
+  if (r.kinematics == retraction::Kinematics::Hyperelastic)
+    return "linear theory misses 0.2 mm or more, or strains leave it";
+  if (r.linearGap && retraction::kinematicsValid(r)) return "linear theory misses less than 0.2 mm";
+  const auto refusal = retraction::largeDeformationRefusal(scene.setup);
+  return refusal ? "large deformation is not offered for " + retraction::inWords(*refusal, scene.setup)
+                 : "what linear theory misses is not known";
+}
+
+void tellOfPlaces(RunResult& r) {
+  double best = 0.0;
+  for (const auto& t : r.placed->tried) best = std::max(best, t.borne);
+  r.diagnostics.add(DiagnosticCode::NoPlaceBears,
+                    {{"places", static_cast<std::int64_t>(r.placed->tried.size())}, {"percent", 100.0 * best}});
+}
+
+namespace {
+
+/// What is said of an answer and stands among the run's own diagnostics too, with its stiffness.
+bool isOfRun(DiagnosticCode code) {
+  switch (code) {
+    case DiagnosticCode::RetractorSlips:
+    case DiagnosticCode::RetractorFolds:
+    case DiagnosticCode::RetractorCuts:
+    case DiagnosticCode::RetractorPastLimit:
+    case DiagnosticCode::LoadsNotBorne:
+    case DiagnosticCode::NotConverged:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+void tellOfContact(RunResult& r) {
+  for (const bool atlas : {false, true}) {
+    if (atlas && !r.atlas) continue;
+    for (Diagnostic d : (atlas ? *r.atlas : r.primary).doubts) {
+      if (!isOfRun(d.code)) continue;
+      for (auto& [key, value] : d.arguments)
+        if (key == "stiffness") value = wordOf(atlas);  // where both are the same, the second answer is the first
+      r.diagnostics.add(d.code, d.arguments);
+    }
+  }
+  if (!r.primary.contact) return;
+  const retraction::RigidContact& c = *r.primary.contact;
+  r.diagnostics.add(DiagnosticCode::ContactByCells, {{"cell_mm", r.model.youngs_kPa.grid.spacing_mm.maxCoeff()}});
+  if (std::abs(c.moved_mm) > c.barRadius_mm)
+    r.diagnostics.add(DiagnosticCode::RetractorLaid, {{"distance_mm", std::abs(c.moved_mm)},
+                                                      {"side", std::string(c.moved_mm < 0 ? "before" : "beyond")}});
+}
+
+void tellOfAtlas(RunResult& r) {
+  if (!r.atlas) return;
+  if (r.atlas->contact)
+    for (const Diagnostic& d : r.atlas->doubts)
+      if (!isOfRun(d.code)) r.warnings.push_back("atlas: " + d.text());
+  for (const std::string& w : r.atlas->solver.diagnostics.texts(Severity::Warning)) r.warnings.push_back("atlas: " + w);
+}
+
+namespace {
+
+const char* inWords(retraction::BarOutcome outcome) {
+  switch (outcome) {
+    case retraction::BarOutcome::Slips:
+      return "slips";
+    case retraction::BarOutcome::Folds:
+      return "folds";
+    case retraction::BarOutcome::Cuts:
+      return "cuts";
+    case retraction::BarOutcome::LoadsNotBorne:
+      return "loads not borne";
+    case retraction::BarOutcome::Reached:
+    case retraction::BarOutcome::Stopped:
+      break;
+  }
+  return "not converged";
+}
+
+}  // namespace
+
+bool isAnswer(const retraction::Result& result) {
+  if (!result.solver.converged()) return false;
+  if (result.kinematics != retraction::Kinematics::Linear) return result.drawable;
+  return !result.contact || result.contact->smallestJ > 0;
+}
+
+void withhold(RunResult& r) {
+  for (const bool atlas : {false, true}) {
+    const retraction::Result& result = atlas ? *r.atlas : r.primary;
+    if (isAnswer(result)) continue;
+    r.diagnostics.add(
+        DiagnosticCode::DifferenceWithheld,
+        {{"stiffness", wordOf(atlas)},
+         {"reason", std::string(result.contact && !result.solver.converged()         ? inWords(result.contact->outcome)
+                                : !result.solver.converged()                         ? "not converged"
+                                : result.contact && !(result.contact->smallestJ > 0) ? "a cell is turned inside out"
+                                                                                     : "no deformation")}});
+  }
+}
+
+std::string doubtOf(const RunResult& r) {
+  if (!r.difference || !r.discretisation || !r.discretisation->difference) return {};
+  const std::optional<double> error_mm = r.discretisation->difference->at_retractor_mm;
+  const double line_mm = defaults::clinicallySignificant.mm(), there_mm = r.difference->at_retractor_mm;
+  if (!error_mm || std::abs(there_mm - line_mm) > *error_mm) return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "the difference at the retractor, " << there_mm << " mm, is no further from " << line_mm
+       << " mm than the cells may shift it (" << *error_mm
+       << " mm): use smaller cells before saying on which side of that line it lies";
+  return text.str();
+}
+
+std::string adviceOn(const Scene& scene, const retraction::Result& r) {
+  if (r.kinematics != retraction::Kinematics::Linear || r.linearTrusted || !r.solver.converged()) return {};
+  const bool offered = !retraction::largeDeformationRefusal(scene.setup);
+  std::string way = retraction::wayToLargeDeformation(scene.setup);
+  way.front() = 'T';  // "take ..."
+  const std::string hyperelastic = offered ? "Choose \"kinematics\": \"hyperelastic\"" : way;
+  if (r.p95_strain >= 0.10)
+    return hyperelastic +
+           ". Linear theory adds up strains as if they were small and keeps the "
+           "stiffness and the shape on which the load acts as they are at rest; the hyperelastic (neo-Hookean) body is "
+           "solved in its deformed shape and stiffens as it is compressed. Displacements at the retractor change most. "
+           "The report then shows both answers side by side.";
+  if (r.max_rotation_deg >= 15 && offered && !r.contact)
+    return "Choose \"kinematics\": \"corotational\". Linear theory takes rotation for strain; corotational elements "
+           "turn with the material and strain it only by what is left. Where the tissue turns, it no longer swells, "
+           "and displacements there change. The report then shows both answers side by side.";
+  return hyperelastic + (r.max_rotation_deg >= 15 && r.drawable
+                             ? ": linear theory takes rotation for strain, and this body turns."
+                             : ": the linear answer is no deformation of this body.");
+}
+
+}  // namespace detail
+
+}  // namespace glisson::pipeline
