@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "anatomy/regions.h"
 #include "anatomy/surface.h"
@@ -10,6 +11,7 @@
 #include "base/error.h"
 #include "base/quantity.h"
 #include "image/io.h"
+#include "mechanics/contact/rigid_bar.h"
 #include "mechanics/kernel.h"
 #include "mechanics/sites.h"
 #include "pipeline/inputs.h"
@@ -182,6 +184,15 @@ tools::BarPlace patchPlace(const retraction::Retractor& bar, const retraction::B
   return at;
 }
 
+/// The centre line of a hook at first touch, as the run bends it: to the side that its grid's axes make of the hoist and
+/// the bar's axis.
+std::vector<Eigen::Vector3d> hookLine(const tools::BarPlace& at, const image::Grid& grid) {
+  const double side = grid.direction.determinant() < 0.0 ? -1.0 : 1.0;
+  const Eigen::Vector3d centre = at.contact_lps - 0.5 * at.diameter_mm * at.direction;
+  return mechanics::hook(centre, at.axis, side * at.direction.cross(at.axis), at.length_mm, 0.5 * std::numbers::pi)
+      .centreline_m;
+}
+
 /// The bar of a scene; where it cannot lie at the point given it is shown there, with the reason.
 void placeBar(const pipeline::Scene& scene, const retraction::Model& model, const mechanics::TriangleSurface& smooth,
               const retraction::Body& body, const image::Mask& cells, const std::optional<retraction::PlacedBar>& proved,
@@ -206,7 +217,8 @@ void placeBar(const pipeline::Scene& scene, const retraction::Model& model, cons
     picture.bar->diameter_mm = bar->diameter_mm;
     picture.bar->length_mm = bar->length_mm;
     picture.bar->rigid = rigid;
-    picture.bar->hook = rigid && bar->shape == retraction::BarShape::Hook;
+    if (rigid && bar->shape == retraction::BarShape::Hook)
+      picture.bar->line_lps = hookLine(*picture.bar, model.youngs_kPa.grid);
   }
 }
 
