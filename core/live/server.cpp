@@ -185,7 +185,8 @@ class Session {
       : livers_(livers), rest_mm_(landmarks_mm), options_(options) {
     const std::size_t n = landmarks_mm.size(), most = std::min(n, std::max<std::size_t>(1, options.landmarks));
     for (std::size_t i = 0; i < most; ++i) sent_.push_back(i * n / most);
-    mre_.force_N = atlas_.force_N = livers.mre->sceneForce_N();
+    mre_ = livers.mre->sceneTarget();
+    atlas_ = livers.atlas ? livers.atlas->sceneTarget() : mre_;
   }
 
   /// The tool is taken to a place: both livers follow it.
@@ -196,14 +197,14 @@ class Session {
 
   void follow(ServerStatistics& s) {
     const auto start = Clock::now();
-    followed_ = true;
     now_ = retraction::followBoth(livers_, mre_, atlas_);
     livers_.mre->displacements(u_mm_);
     if (livers_.atlas) livers_.atlas->displacements(atlas_u_mm_);
     s.evaluate_us += 1e3 * ms(Clock::now() - start);
     s.remaining_mm = std::max({s.remaining_mm, now_.mre.remaining_mm, now_.atlas.remaining_mm});
+    if (now_.mre.slips || now_.atlas.slips) ++s.slipping;
+    s.last = now_;
   }
-  bool atRest() const { return followed_ && now_.mre.atRest && now_.atlas.atRest; }
 
   bool sendFrame(igtl::Socket& socket) {
     igtl::TimeStamp::Pointer time = igtl::TimeStamp::New();
@@ -218,7 +219,7 @@ class Session {
     const Eigen::Vector3d tool = turned(livers_.mre->toolPoint_mm() + now_.mre.tool_mm, options_.ras);
     for (int a = 0; a < 3; ++a) matrix[a][3] = static_cast<float>(tool[a]);
     reached->SetMatrix(matrix);
-    if (!send(socket, *reached, "RetractorReached", time)) return false;
+    if (!send(socket, *reached, "RetractorReached", time) || !sendState(socket, time)) return false;
     igtl::StringMessage::Pointer force = igtl::StringMessage::New();
     const Eigen::Vector3d f = turned(now_.mre.force_N, options_.ras);
     char text[96];
@@ -228,6 +229,15 @@ class Session {
   }
 
  private:
+  /// That a bar slips, in every frame in which it does, and once that it holds again.
+  bool sendState(igtl::Socket& socket, igtl::TimeStamp::Pointer& time) {
+    const bool mre = now_.mre.slips, atlas = now_.atlas.slips;
+    if (!mre && !atlas && !slipped_) return true;
+    slipped_ = mre || atlas;
+    igtl::StringMessage::Pointer state = igtl::StringMessage::New();
+    state->SetString(mre && atlas ? "slips: MRE, atlas" : mre ? "slips: MRE" : atlas ? "slips: atlas" : "holds");
+    return send(socket, *state, "RetractorState", time);
+  }
   bool sendPoints(igtl::Socket& socket, const char* name, const char* group, const Eigen::Matrix3Xd& u_mm,
                   igtl::TimeStamp::Pointer& time) {
     igtl::PointMessage::Pointer message = igtl::PointMessage::New();
@@ -250,7 +260,7 @@ class Session {
   std::vector<std::size_t> sent_;
   retraction::LiveTarget mre_, atlas_;
   retraction::LiveAnswers now_;
-  bool followed_ = false;
+  bool slipped_ = false;  ///< as the client was told last
   Eigen::Matrix3Xd u_mm_, atlas_u_mm_;
 };
 
@@ -275,12 +285,7 @@ ServerStatistics serve(const retraction::LiveLivers& livers, const std::vector<E
   const auto tick = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / options.rate_hz));
   // The first client meets the livers as the scene's own hoist leaves them.
   constexpr int most = 400;
-  Session first(livers, landmarks_mm, options);
-  for (int frame = 0; frame < most && !first.atRest(); ++frame) {
-    progress.check();
-    first.follow(s);
-  }
-  s = {};
+  retraction::followScene(livers, most, progress);
   if (listening) listening(server->GetServerPort());
   const auto finished = [&] { return options.frames > 0 && s.frames >= options.frames; };
   try {
@@ -332,6 +337,22 @@ ServerStatistics serve(const retraction::LiveLivers& livers, const std::vector<E
   if (connected_ms > 0.0) s.rate_hz = 1e3 * static_cast<double>(s.frames) / connected_ms;
   if (s.frames > 0) s.evaluate_us /= static_cast<double>(s.frames);
   if (answered > 0) s.latency_ms = latency_ms / static_cast<double>(answered);
+  return s;
+}
+
+ServerStatistics rehearse(const retraction::LiveLivers& livers, long frames, const Progress& progress) {
+  if (frames < 1) throw BadArgument("rehearse: a number of frames is needed");
+  ServerStatistics s;
+  const std::vector<Eigen::Vector3d> none;
+  Session session(livers, none, {});
+  const auto start = Clock::now();
+  while (s.frames < frames) {
+    progress.check();
+    session.follow(s);
+    ++s.frames;
+  }
+  s.rate_hz = 1e3 * static_cast<double>(s.frames) / ms(Clock::now() - start);
+  s.evaluate_us /= static_cast<double>(s.frames);
   return s;
 }
 

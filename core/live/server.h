@@ -21,11 +21,13 @@ struct ServerOptions {
 
 /// What was measured while serving.
 struct ServerStatistics {
-  long frames = 0;                                ///< sent
+  long frames = 0;                                ///< sent, or rehearsed
   long poses = 0;                                 ///< received
-  double rate_hz = 0.0;                           ///< frames over the time that a client was connected
+  double rate_hz = 0.0;                           ///< frames over the time that a client was connected, or that they took
   double evaluate_us = 0.0;                       ///< mean time of one answer for both stiffnesses, side by side
-  double remaining_mm = 0.0;                      ///< largest estimated distance from equilibrium of a frame sent
+  double remaining_mm = 0.0;  ///< of the solver: largest estimated distance of a frame from equilibrium on these cells
+  long slipping = 0;          ///< frames in which a liver did not bear the force asked for
+  retraction::LiveAnswers last;
   double latency_ms = 0.0, latency_max_ms = 0.0;  ///< from a whole pose read to its answer handed to the network
 };
 
@@ -34,8 +36,11 @@ struct ServerStatistics {
 ///   sends     POINT "LandmarksMRE"        landmarks with the measured stiffness
 ///             POINT "LandmarksAtlas"      the same with the textbook stiffness (where atlas is given)
 ///             TRANSFORM "RetractorReached" where the tool is, as it was taken
-///             STRING "RetractorForce"     "x y z" in N that the tool pulls with (measured stiffness)
-/// Until a pose arrives the scene's own hoist acts; a pose takes both livers to the same place of the tool. Under contact
+///             STRING "RetractorState"     where a bar slips: "slips: MRE", "slips: atlas" or "slips: MRE, atlas" (the liver
+///                                         does not bear the force asked for, and the bar stays where it slipped); "holds"
+///                                         once when that is over. Frames of bars that hold carry none.
+///             STRING "RetractorForce"     "x y z" in N that the tool pulls with (measured stiffness); ends a frame
+/// Until a pose arrives the scene's own drive acts, its force or its travel; a pose takes both livers to the same place of the tool. Under contact
 /// a liver that is not there yet goes on with every frame. A pose more than 100 mm from the contact's rest, or not
 /// finite, is ignored; a message whose body has another size than its type asks for ends
 /// the connection. Carries no identity of the patient; the protocol knows no password, so beyond this computer use it on
@@ -44,5 +49,9 @@ struct ServerStatistics {
 ServerStatistics serve(const retraction::LiveLivers& livers, const std::vector<Eigen::Vector3d>& landmarks_mm,
                        const ServerOptions& options,
                        const std::function<void(int)>& listening = {}, const Progress& progress = {});
+
+/// The same frames without a network, one after another as fast as they come: from where the livers are towards what the
+/// scene asks of the tool, and on at rest there. No poses, no latency.
+ServerStatistics rehearse(const retraction::LiveLivers& livers, long frames, const Progress& progress = {});
 
 }  // namespace glisson::live

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
+#include <memory>
 
 #include "image/volume.h"
 
@@ -43,27 +43,37 @@ T sampleLinear(const image::Volume<T>& volume, Eigen::Vector3d index, bool clamp
   return mix(bottom, top, f.z());
 }
 
+class DeformedCells;
+
 /// Finds the rest position x of the material that is at y: x + u(x) = y.
 class InverseMap {
  public:
   struct Result {
     Eigen::Vector3d x_lps;
     double residual_mm = 0.0;  ///< ‖x + u(x) − y‖
+    bool found = false;        ///< by a cell that holds y, or to within a quarter of a millimetre
   };
   /// clampOutside: beyond the field's grid its edge value goes on (otherwise 0). The field must outlive this object.
   InverseMap(const image::DisplacementField& u_mm, bool clampOutside);
+  /// Material of the mask (0..1) is found wherever a cell of it lies, and before what the field is beyond it. The mask must
+  /// outlive this object.
+  InverseMap(const image::DisplacementField& u_mm, bool clampOutside, const image::ScalarVolume& mask);
+  ~InverseMap();
 
   /// Displacement at a rest position, tri-linear, mm.
   Eigen::Vector3d at(const Eigen::Vector3d& x_lps) const;
 
   /// Fixed point x ← y − u(x) with step halving once it stops contracting; the iterate with the smallest residual is
-  /// given.
+  /// given. With a mask: where that leads to no material of it, by the cells of the mask as they lie now.
   Result rest(const Eigen::Vector3d& y_lps) const;
 
  private:
+  Result iterate(const Eigen::Vector3d& y_lps) const;
+  Result polished(const Eigen::Vector3d& x_lps, const Eigen::Vector3d& y_lps) const;
   const image::DisplacementField& u_;
   LpsToIndex toIndex_;
   bool clampOutside_;
+  std::unique_ptr<const DeformedCells> cells_;
 };
 
 /// The field carried on beyond the voxels where it is known (mask ≥ ½ and u not exactly zero): each layer of voxels

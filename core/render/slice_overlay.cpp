@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <optional>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -11,6 +13,7 @@
 #include "render/sampling.h"
 #include "render/slice_frame.h"
 #include "render/stroke_cover.h"
+#include "render/surface_cut.h"
 
 namespace glisson::render {
 namespace {
@@ -53,7 +56,9 @@ Window windowOf(const image::ScalarVolume& mri, const image::ScalarVolume& liver
 struct State {
   image::DisplacementField u_mm;  ///< carried on beyond the liver
   InverseMap inverse;
-  explicit State(image::DisplacementField carriedOn) : u_mm(std::move(carriedOn)), inverse(u_mm, true) {}
+  std::optional<anatomy::TriangleMesh> surface;  ///< of the liver in contact with a bar, moved
+  State(image::DisplacementField carriedOn, const image::ScalarVolume& liver, std::optional<anatomy::TriangleMesh> moved)
+      : u_mm(std::move(carriedOn)), inverse(u_mm, true, liver), surface(std::move(moved)) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 };
@@ -70,6 +75,12 @@ std::array<image::DisplacementField, 2> carriedOn(const RetractionScene& scene, 
   return out;
 }
 
+/// The surface of the liver on which contact was solved, as it lies at the end.
+std::optional<anatomy::TriangleMesh> inContact(const RetractionScene& scene, bool atlas) {
+  if (!scene.bar || scene.bar->surface.triangles.cols() == 0) return {};
+  return movedSurface(*scene.bar, atlas && scene.bar->atlas ? *scene.bar->atlas : scene.bar->mre, 1.0);
+}
+
 class Composer {
  public:
   explicit Composer(const RetractionScene& scene)
@@ -77,8 +88,8 @@ class Composer {
         liver_(asScalar(scene.liver)),
         window_(windowOf(scene.mri, liver_)),
         fields_(carriedOn(scene, liver_)),
-        mre_(std::move(fields_[0])),
-        atlas_(std::move(fields_[1])) {}
+        mre_(std::move(fields_[0]), liver_, inContact(scene, false)),
+        atlas_(std::move(fields_[1]), liver_, inContact(scene, true)) {}
 
   Picture draw(const SlicePlane& plane, const SliceOverlayOptions& options) const {
     const Palette palette = options.palette;
@@ -125,30 +136,50 @@ class Composer {
   }
 
  private:
-  /// Brightness 0..1 of one channel: windowed liver, dimmed surroundings, outline of the liver and the vessels.
+  /// Brightness 0..1 of one channel: windowed liver, dimmed surroundings, outline of the liver and the vessels. The liver
+  /// is what lies within its surface in contact where there is one, else what the mask's cells hold.
   std::vector<float> channel(const SlicePlane& plane, const State& state, bool outlines) const {
     const LpsToIndex toMri(scene_.mri.grid), toLiver(liver_.grid);
     const auto width = static_cast<std::size_t>(plane.width);
+    std::optional<SurfaceCut> cut;
+    if (state.surface) cut = cutSurface(plane, *state.surface);
     std::vector<float> out(width * static_cast<std::size_t>(plane.height));
     std::vector<float> phi(out.size(), -1.0F);
+    std::vector<std::uint8_t> unknown(out.size(), 0);
     parallelChunks(static_cast<std::size_t>(plane.height), 8, [&](std::size_t begin, std::size_t end) {
       for (std::size_t row = begin; row < end; ++row)
         for (std::size_t column = 0; column < width; ++column) {
           const std::size_t n = row * width + column;
           const Eigen::Vector3d y = plane.toLps(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
           const InverseMap::Result rest = state.inverse.rest(y);
-          const bool found = rest.residual_mm < 0.25;
-          phi[n] = found ? sampleLinear(liver_, toLiver(rest.x_lps)) - 0.5F : -0.5F;
-          if (found && phi[n] >= 0.0F)
+          phi[n] = rest.found ? sampleLinear(liver_, toLiver(rest.x_lps)) - 0.5F : -0.5F;
+          if (cut && cut->closed[row]) unknown[n] = cut->inside[n] && !rest.found;
+          if (cut && cut->closed[row] ? cut->inside[n] != 0 : phi[n] >= 0.0F)
             out[n] = window_(sampleLinear(scene_.mri, toMri(rest.x_lps)));
           else if (sampleLinear(liver_, toLiver(y)) < 0.5F)
             out[n] = dimmed * window_(sampleLinear(scene_.mri, toMri(y)));
         }
     });
+    fillFromBeside(unknown, width, out);
     if (!outlines) return out;
-    outline(plane, phi, out);
+    if (cut)
+      for (const auto& [from, to] : cut->lines) line(plane, from, to, outlineWidth(plane), 0.9F, out);
+    else
+      outline(plane, phi, out);
     vesselCut(plane, state, out);
     return out;
+  }
+
+  static double outlineWidth(const SlicePlane& plane) {
+    return 2.0 * std::max(0.7, std::min(plane.width, plane.height) / 900.0);
+  }
+  static void line(const SlicePlane& plane, const Point& from, const Point& to, double width, float bright,
+                   std::vector<float>& out) {
+    coverStroke(from, to, width, plane.width, plane.height, [&](int x, int y, double cover) {
+      float& at =
+          out[static_cast<std::size_t>(y) * static_cast<std::size_t>(plane.width) + static_cast<std::size_t>(x)];
+      at = std::max(at, bright * static_cast<float>(cover));
+    });
   }
 
   /// A thin bright line where phi changes sign; its distance is |phi| over the gradient.
@@ -156,7 +187,7 @@ class Composer {
     const auto at = [&](int x, int y) {
       return phi[static_cast<std::size_t>(y) * static_cast<std::size_t>(plane.width) + static_cast<std::size_t>(x)];
     };
-    const float half = std::max(0.7F, static_cast<float>(std::min(plane.width, plane.height)) / 900.0F);
+    const auto half = static_cast<float>(0.5 * outlineWidth(plane));
     for (int y = 1; y + 1 < plane.height; ++y)
       for (int x = 1; x + 1 < plane.width; ++x) {
         const float gx = 0.5F * (at(x + 1, y) - at(x - 1, y)), gy = 0.5F * (at(x, y + 1) - at(x, y - 1));
@@ -191,11 +222,7 @@ class Composer {
         ends.push_back(plane.toPixel(moved[a] + (moved[b] - moved[a]) * (height[a] / (height[a] - height[b]))));
       }
       if (ends.size() != 2) continue;
-      coverStroke(ends[0], ends[1], width, plane.width, plane.height, [&](int x, int y, double cover) {
-        float& to =
-            out[static_cast<std::size_t>(y) * static_cast<std::size_t>(plane.width) + static_cast<std::size_t>(x)];
-        to = std::max(to, static_cast<float>(cover));
-      });
+      line(plane, ends[0], ends[1], width, 1.0F, out);
     }
   }
 

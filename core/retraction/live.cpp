@@ -44,4 +44,15 @@ LiveAnswers followBoth(const LiveLivers& livers, const LiveTarget& mre, const Li
   return answers;
 }
 
+LiveAnswers followScene(const LiveLivers& livers, int frames, const Progress& progress) {
+  const LiveTarget mre = livers.mre->sceneTarget(), atlas = livers.atlas ? livers.atlas->sceneTarget() : mre;
+  LiveAnswers now;
+  for (int frame = 0; frame < frames; ++frame) {
+    progress.check();
+    now = followBoth(livers, mre, atlas);
+    if (now.mre.atRest && now.atlas.atRest) break;
+  }
+  return now;
+}
+
 }  // namespace glisson::retraction

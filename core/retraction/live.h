@@ -21,7 +21,7 @@ struct LiveTarget {
 struct LiveAnswer {
   Eigen::Vector3d tool_mm = Eigen::Vector3d::Zero();  ///< reached, from rest, LPS
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< of the tool on the liver, LPS
-  double remaining_mm = 0.0;                          ///< estimated largest distance from the equilibrium
+  double remaining_mm = 0.0;  ///< of the solver: estimated largest distance from the equilibrium of these very cells
   bool atRest = true;                                 ///< what was asked for is reached: further frames change nothing
   bool slips = false;                                 ///< the liver does not bear the force asked for
 };
@@ -32,10 +32,14 @@ class LiveRetraction {
   virtual ~LiveRetraction() = default;
 
   const Eigen::Vector3d& toolPoint_mm() const { return toolPoint_mm_; }  ///< of the contact at rest, LPS
-  /// The force of the scene itself: size and direction of the hoist.
+  /// The force of the scene itself: size and direction of the hoist. Where the scene gives the bar its travel: the liver's
+  /// weight under contact, else the force that the travel takes.
   const Eigen::Vector3d& sceneForce_N() const { return sceneForce_N_; }
+  /// What the scene itself asks of the tool: its force, or its travel.
+  const LiveTarget& sceneTarget() const { return sceneTarget_; }
   int points() const { return points_; }
   int dofs() const { return dofs_; }
+  double cell_mm() const { return cell_mm_; }  ///< longest edge of the cells that are followed
 
   /// One frame towards the target.
   virtual LiveAnswer follow(const LiveTarget& target) = 0;
@@ -44,7 +48,9 @@ class LiveRetraction {
 
  protected:
   Eigen::Vector3d toolPoint_mm_ = Eigen::Vector3d::Zero(), sceneForce_N_ = Eigen::Vector3d::Zero();
+  LiveTarget sceneTarget_;
   int points_ = 0, dofs_ = 0;
+  double cell_mm_ = 0.0;
 };
 
 /// How a liver follows. Contact: a rigid bar under large deformation on coarse cells, some milliseconds a frame.
@@ -71,5 +77,8 @@ struct LiveAnswers {
 };
 /// One frame of both, side by side where a frame takes long.
 LiveAnswers followBoth(const LiveLivers& livers, const LiveTarget& mre, const LiveTarget& atlas);
+
+/// Frames towards what the scene itself asks of the tool, until both livers are at rest there or `frames` are spent.
+LiveAnswers followScene(const LiveLivers& livers, int frames, const Progress& progress = {});
 
 }  // namespace glisson::retraction

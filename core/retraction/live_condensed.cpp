@@ -101,6 +101,14 @@ CondensedRetraction::CondensedRetraction(const Model& model, const Setup& setup,
   compliance_mm_N_ = C.bottomLeftCorner<3, 3>();
   constant_mm_ = constant ? Eigen::VectorXd(C.col(3).head(rows)) : Eigen::VectorXd::Zero(rows);
   if (constant) toolConstant_mm_ = C.col(3).tail<3>();
+  cell_mm_ = mmPerM * body.voxels().h_m.maxCoeff();
+  // A travel takes the force along the hoist that leads there.
+  for (const LoadSpec& load : setup.loads)
+    if (const auto* r = std::get_if<Retractor>(&load); r != nullptr && r->travel_mm) {
+      const Eigen::Vector3d hoist = sceneForce_N_.normalized();
+      sceneForce_N_ = (*r->travel_mm - hoist.dot(toolConstant_mm_)) / hoist.dot(compliance_mm_N_ * hoist) * hoist;
+    }
+  sceneTarget_.force_N = sceneForce_N_;
 }
 
 Eigen::Vector3d CondensedRetraction::forceFor(const Eigen::Vector3d& toolDisplacement_mm) const {

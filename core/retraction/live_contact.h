@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "mechanics/contact/contact_tracker.h"
+#include "retraction/force_seeker.h"
 #include "retraction/live.h"
 
 namespace glisson::retraction {
@@ -19,18 +20,11 @@ class ContactRetraction : public LiveRetraction {
   void displacements(Eigen::Matrix3Xd& u_mm) const override;
 
  private:
-  double alongFor(double force_N);
-
   std::optional<mechanics::ContactTracker> tracker_;
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  ///< of the grid, LPS
-  Eigen::Vector3d hoist_;          ///< unit, LPS
-  double along_mm_ = 0.0;          ///< of the bar, along the hoist
-  double forceAlong_N_ = 0.0;      ///< of the bar on the liver
-  double remaining_mm_ = 0.0;      ///< estimated distance from equilibrium
-  double seenAt_mm_ = 0.0, seen_N_ = 0.0;  ///< travel and force of the last frame near equilibrium
-  double stiffness_N_mm_ = 0.0;    ///< rise of the force with travel between the last two of them
-  double best_N_ = 0.0, bestAt_mm_ = 0.0;  ///< largest force on the way to the one that is asked for, and where
-  bool slips_ = false;
+  Eigen::Vector3d hoist_;      ///< unit, LPS
+  ForceSeeker seeker_;         ///< where a force leads the bar
+  ForceSeeker::Seen seen_;     ///< bar and liver after the last frame
 };
 
 }  // namespace glisson::retraction

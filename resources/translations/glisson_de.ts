@@ -403,8 +403,8 @@
             <translation>Wie gerechnet</translation>
         </message>
         <message>
-            <source>Back to the force of the run</source>
-            <translation>Zurück zur Kraft des Laufs</translation>
+            <source>Back to the force or the travel of the run</source>
+            <translation>Zurück zur Kraft oder zum Weg des Laufs</translation>
         </message>
         <message>
             <source>Run the retraction; then the retractor can be moved by hand.</source>
@@ -445,6 +445,10 @@
         <message>
             <source>Tool %1 mm from rest with %2 N (the run: %3 N)</source>
             <translation>Werkzeug %1 mm aus der Ruhe mit %2 N (der Lauf: %3 N)</translation>
+        </message>
+        <message>
+            <source>Tool %1 mm from rest with %2 N (the run: %3 mm)</source>
+            <translation>Werkzeug %1 mm aus der Ruhe mit %2 N (der Lauf: %3 mm)</translation>
         </message>
         <message>
             <source>; with atlas stiffness it goes %1 mm, %2 mm from there</source>
@@ -1832,10 +1836,6 @@
         <message>
             <source> (where the run has laid it)</source>
             <translation> (wohin die Rechnung ihn gelegt hat)</translation>
-        </message>
-        <message>
-            <source>It is drawn straight; the run bends it.</source>
-            <translation>Er ist gerade gezeichnet; die Rechnung biegt ihn.</translation>
         </message>
     </context>
     <context>

@@ -29,18 +29,23 @@ def message(connection):
     return kind.rstrip(b"\0").decode(), name.rstrip(b"\0").decode(), read_exactly(connection, size)
 
 
+def block(folder, retractor):
+    """A block on springs with a bar under it."""
+    folder = pathlib.Path(folder)
+    cells = list(itertools.product(range(8), range(8), range(8)))
+    write_nifti(folder / "mask.nii.gz", [1] * len(cells), (8, 8, 8), (8.0, 8.0, 8.0), kind="B")
+    return write_scene(folder, {
+        "geometry": {"kind": "mask", "file": "mask.nii.gz"}, "material": {"youngs_kPa": 12},
+        "supports": [{"region": {"surface": "all"}, "kind": "spring", "stiffness_kPa_per_mm": 0.1}],
+        "loads": [{"kind": "retractor", "length_mm": 40, "at": [-28, 0, 28], **retractor}],
+        "compare": {"against": "atlas"}, "outputs": [{"probe": [[-20, -20, 20], [-30, -30, 30]]}]})
+
+
 class Live(unittest.TestCase):
     def stream(self, frames, *options):
         """The first four messages, those of the last frame, and the record of a stream of both stiffnesses."""
         with tempfile.TemporaryDirectory() as temporary:
-            folder = pathlib.Path(temporary)
-            cells = list(itertools.product(range(8), range(8), range(8)))
-            write_nifti(folder / "mask.nii.gz", [1] * len(cells), (8, 8, 8), (8.0, 8.0, 8.0), kind="B")
-            scene = write_scene(folder, {
-                "geometry": {"kind": "mask", "file": "mask.nii.gz"}, "material": {"youngs_kPa": 12},
-                "supports": [{"region": {"surface": "all"}, "kind": "spring", "stiffness_kPa_per_mm": 0.1}],
-                "loads": [{"kind": "retractor", "length_mm": 40, "force": 2, "at": [-28, 0, 28]}],
-                "compare": {"against": "atlas"}, "outputs": [{"probe": [[-20, -20, 20], [-30, -30, 30]]}]})
+            scene = block(temporary, {"force": 2})
             process = subprocess.Popen([CLI, "live", str(scene), "--port", "0", "--frames", str(frames), "--rate", "100",
                                         "--json", *options],
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -48,6 +53,9 @@ class Live(unittest.TestCase):
             for line in process.stderr:
                 found = re.search(r"port (\d+)", line)
                 if found:
+                    # Whoever only wanted a measurement is told what it waits for.
+                    self.assertIn("waits for a client", line)
+                    self.assertIn("--headless", line)
                     port = int(found.group(1))
                     break
             self.assertIsNotNone(port)
@@ -87,6 +95,61 @@ class Live(unittest.TestCase):
         self.check(first)
         self.assertEqual(record["model"], "condensed")
         self.assertEqual(record["remaining_mm"], 0)
+
+    def headless(self, retractor, *options, frames=250):
+        with tempfile.TemporaryDirectory() as temporary:
+            scene = block(temporary, retractor)
+            return json.loads(cli("live", scene, "--headless", "--frames", frames, "--json", *options).stdout)
+
+    def test_measures_without_a_client_and_meets_a_small_force(self):
+        for force in (0.05, 0.2, 2):
+            record = self.headless({"force": force})
+            self.assertEqual((record["frames"], record["headless"], record["poses"]), (250, True, 0))
+            self.assertGreater(record["rate_hz"], 5)
+            for who in ("mre", "atlas"):
+                self.assertTrue(record[who]["at_rest"], (force, who, record[who]))
+                self.assertFalse(record[who]["slips"])
+                self.assertAlmostEqual(-record[who]["force_N"][1], force, delta=max(0.004 * force, 0.0015))
+            self.assertEqual(record["slipping_frames"], 0)
+            self.assertGreater(record["cell_mm"], 0)
+            self.assertIsNone(record["discretisation_mm"])
+
+    def test_goes_by_the_travel_of_the_scene(self):
+        record = self.headless({"drive": {"travel_mm": 6}})
+        for who in ("mre", "atlas"):
+            self.assertTrue(record[who]["at_rest"])
+            self.assertAlmostEqual(-record[who]["tool_mm"][1], 6, delta=0.01)
+        self.assertGreater(-record["mre"]["force_N"][1], -record["atlas"]["force_N"][1])
+        condensed = self.headless({"drive": {"travel_mm": 6}}, "--model", "condensed", frames=3)
+        self.assertAlmostEqual(-condensed["mre"]["tool_mm"][1], 6, delta=1e-6)
+
+    def test_says_that_a_bar_slips(self):
+        record = self.headless({"force": 8}, frames=100)  # a run says that it slips at 5.9 N
+        self.assertEqual((record["mre"]["slips"], record["atlas"]["slips"]), (False, True))
+        self.assertGreater(record["slipping_frames"], 0)
+        self.assertTrue(any("slips" in w for w in record["warnings"]))
+        self.assertTrue(any("slips" in d["text"] for d in record["diagnostics"]))
+
+    def test_tells_what_its_cells_cost_against_a_run(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            scene = block(temporary, {"force": 2})
+            out = pathlib.Path(temporary) / "run"
+            cli("run", scene, "--output", out)
+            arguments = ["live", scene, "--headless", "--frames", 5, "--run", out]
+            record = json.loads(cli(*arguments, "--json").stdout)
+            off = record["discretisation_mm"]
+            self.assertLessEqual(0, off["mean"])
+            self.assertLessEqual(off["mean"], off["max"])
+            self.assertLess(off["max"], 2.0)
+            self.assertIn("from where the run put them", cli(*arguments).stdout)
+            (pathlib.Path(temporary) / "other").mkdir()
+            other = block(pathlib.Path(temporary) / "other", {"force": 2})
+            changed = json.loads(other.read_text())
+            changed["outputs"] = [{"probe": [[-21, -20, 20]]}]
+            other.write_text(json.dumps(changed))
+            self.assertIn("not of this scene",
+                          cli("live", other, "--headless", "--frames", 5, "--run", out, code=3).stderr)
+            self.assertIn("--frames", cli("live", scene, "--headless", code=3).stderr)
 
     def test_says_what_is_missing(self):
         with tempfile.TemporaryDirectory() as temporary:

@@ -6,11 +6,61 @@
 
 #include "window_bench.h"
 
+namespace {
+
+/// Counts how often something has got another size.
+class Resizes : public QObject {
+ public:
+  int count = 0;
+  bool eventFilter(QObject*, QEvent* event) override {
+    if (event->type() == QEvent::Resize) ++count;
+    return false;
+  }
+};
+
+}  // namespace
+
 class Outlines : public QObject, private glisson::test::WindowBench {
   Q_OBJECT
 
  private slots:
   void initTestCase() { QVERIFY(openSynthetic()); }
+
+  void theSliceViewKeepsItsSizeWhileItIsDrawnOn() {
+    clean();
+    const Eigen::Vector3d centre = glisson::test::trustedPlace(session());
+    mri()->showPoint(centre);
+    const int here = mri()->slice();
+    Resizes resizes;
+    mri()->installEventFilter(&resizes);
+    const QSize size = mri()->size();
+    ellipse(centre, 30.0, 24.0, 12);
+    QTest::keyClick(mri(), Qt::Key_Return);
+    QCOMPARE(session().acceptedCount(), std::size_t{1});
+    // A second outline is being drawn when the numbers of the first come, and everything else that the window may say.
+    mri()->setSlice(here + 2);
+    const QPoint first = pixelOf(centre);
+    for (const QPoint off : {QPoint(0, 0), QPoint(60, 0), QPoint(60, 60)})
+      QTest::mouseClick(mri(), Qt::LeftButton, {}, first + off);
+    QTRY_VERIFY(session().statistics().pooled.has_value());
+    QTRY_VERIFY(find<QLabel>("liveMean")->text().contains("kPa"));
+    click("moreNumbers");
+    emit session().message(QString(400, QLatin1Char('w')));
+    emit session().workStarted(QString(60, QLatin1Char('w')));
+    QTest::qWait(50);
+    emit session().workEnded(true, {});
+    QTest::qWait(50);
+    qInfo("view of %d × %d before, %d × %d after; resized %d times", size.width(), size.height(), mri()->width(),
+          mri()->height(), resizes.count);
+    QCOMPARE(session().tool().state(), glisson::tools::ToolState::Drawing);
+    QCOMPARE(resizes.count, 0);
+    QCOMPARE(mri()->size(), size);
+    QCOMPARE(pixelOf(centre), first);
+    click("moreNumbers");
+    QTest::keyClick(mri(), Qt::Key_Return);
+    clean();
+    mri()->setSlice(here);
+  }
 
   void aHoleStaysLeftOutWhereverItIsPasted() {
     clean();

@@ -29,27 +29,12 @@ using glisson::panels::PlacementEditor;
 using glisson::session::Session;
 using glisson::session::StallMonitor;
 using glisson::session::Step;
+using glisson::test::changed;
 using glisson::test::drag;
 using glisson::test::wait_ms;
 using glisson::views::Mark;
 using glisson::views::SceneView;
 using glisson::views::SliceView;
-
-namespace {
-
-/// How many pixels differ clearly.
-int changed(const QImage& a, const QImage& b) {
-  if (a.size() != b.size()) return a.width() * a.height();
-  int n = 0;
-  for (int y = 0; y < a.height(); ++y)
-    for (int x = 0; x < a.width(); ++x) {
-      const QRgb p = a.pixel(x, y), q = b.pixel(x, y);
-      if (std::abs(qRed(p) - qRed(q)) + std::abs(qGreen(p) - qGreen(q)) + std::abs(qBlue(p) - qBlue(q)) > 24) ++n;
-    }
-  return n;
-}
-
-}  // namespace
 
 class Scene3D : public QObject, private glisson::test::WindowBench {
   Q_OBJECT

@@ -54,7 +54,7 @@ LiveBar::LiveBar(session::Session& session, views::SceneView& scene, QWidget* pa
     row->addWidget(value_[a]);
     connect(slider_[a], &QSlider::valueChanged, this, &LiveBar::take);
   }
-  reset_ = button("liveReset", tr("As run"), {}, tr("Back to the force of the run"));
+  reset_ = button("liveReset", tr("As run"), {}, tr("Back to the force or the travel of the run"));
   reset_->setEnabled(false);
   row->addSpacing(10);
   comparison_ = new QComboBox;
@@ -129,6 +129,8 @@ void LiveBar::build() {
           setLive(false);
           numbers_->setText(tr("The retractor cannot be moved live. %1").arg(why));
         });
+        // A run with a given travel compares at equal travel.
+        comparison_->setCurrentIndex(hand_->pair().sceneTarget().force_N ? 0 : 1);
         live_->setEnabled(true);
         numbers_->setText(tr("Ready: \"Move live\" puts the retractor into your hand."));
         emit ready();
@@ -153,7 +155,7 @@ void LiveBar::setLive(bool live) {
 
 void LiveBar::reset() {
   if (!hand_) return;
-  ask({Eigen::Vector3d::Zero(), hand_->pair().sceneForce_N()});
+  ask(hand_->pair().sceneTarget());
 }
 
 void LiveBar::take() {
@@ -202,10 +204,12 @@ QString LiveBar::numbers() const {
   const bool contact = pair.kind() == retraction::LiveKind::Contact;
   const Eigen::Vector3d hoist = pair.sceneForce_N().normalized();
   const auto pull_N = [&](const Eigen::Vector3d& force_N) { return contact ? force_N.dot(hoist) : force_N.norm(); };
-  QString text = tr("Tool %1 mm from rest with %2 N (the run: %3 N)")
+  const retraction::LiveTarget& run = pair.sceneTarget();
+  QString text = (run.force_N ? tr("Tool %1 mm from rest with %2 N (the run: %3 N)")
+                              : tr("Tool %1 mm from rest with %2 N (the run: %3 mm)"))
                      .arg(f.toolMre_mm.norm(), 0, 'f', 1)
                      .arg(std::abs(pull_N(f.force_N)), 0, 'f', 1)
-                     .arg(pair.sceneForce_N().norm(), 0, 'f', 1);
+                     .arg(run.force_N ? run.force_N->norm() : run.tool_mm.norm(), 0, 'f', 1);
   text += equalForce ? tr("; with atlas stiffness it goes %1 mm, %2 mm from there")
                            .arg(f.toolAtlas_mm.norm(), 0, 'f', 1)
                            .arg(f.atTool_mm, 0, 'f', 2)

@@ -202,7 +202,6 @@ void PlacementEditor::refresh() {
                  .arg(b->direction.x(), 0, 'f', 2)
                  .arg(b->direction.y(), 0, 'f', 2)
                  .arg(b->direction.z(), 0, 'f', 2);
-    if (b->hook) words << tr("It is drawn straight; the run bends it.");
   }
   for (std::size_t n = 0; n < p.holds.size(); ++n)
     words << tr("Held %1: block of %2 mm at %3.")

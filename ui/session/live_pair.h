@@ -45,7 +45,9 @@ class LivePair {
   /// One frame towards what the hand asks of the liver with measured stiffness; the other one is given the same force,
   /// or the same way.
   void follow(const retraction::LiveTarget& hand, LiveComparison comparison, LiveFrame& frame);
-  /// What the run itself pulled with.
+  /// What the run itself asked of the tool: its force, or its travel.
+  const retraction::LiveTarget& sceneTarget() const { return livers_.mre->sceneTarget(); }
+  /// The force of the run; where it was given its travel, of its hoist only the direction counts.
   const Eigen::Vector3d& sceneForce_N() const { return livers_.mre->sceneForce_N(); }
   const Eigen::Vector3d& toolPoint_mm() const { return livers_.mre->toolPoint_mm(); }  ///< at rest, LPS
   retraction::LiveKind kind() const { return livers_.kind; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "anatomy/regions.h"
 #include "anatomy/surface.h"
@@ -10,6 +11,7 @@
 #include "base/error.h"
 #include "base/quantity.h"
 #include "image/io.h"
+#include "mechanics/contact/rigid_bar.h"
 #include "mechanics/kernel.h"
 #include "mechanics/sites.h"
 #include "pipeline/inputs.h"
@@ -182,6 +184,33 @@ tools::BarPlace patchPlace(const retraction::Retractor& bar, const retraction::B
   return at;
 }
 
+/// The centre line of a hook at first touch, as the run bends it: to the side that its grid's axes make of the hoist and
+/// the bar's axis. mm throughout.
+std::vector<Eigen::Vector3d> hookLine(const tools::BarPlace& at, const image::Grid& grid,
+                                      const mechanics::TriangleSurface& liver) {
+  constexpr double reach_mm = 30.0, near_mm = 0.05;  // it touches elsewhere than a straight bar, along the hoist
+  const double side = grid.direction.determinant() < 0.0 ? -1.0 : 1.0;
+  const Eigen::Vector3d centre = at.contact_lps - 0.5 * at.diameter_mm * at.direction;
+  mechanics::RigidBar bar =
+      mechanics::hook(centre, at.axis, side * at.direction.cross(at.axis), at.length_mm, 0.5 * std::numbers::pi);
+  bar.radius_m = 0.5 * at.diameter_mm;
+  bar.hoist = at.direction;
+  const auto free = [&](double travel_mm) {
+    return std::all_of(liver.vertices.begin(), liver.vertices.end(), [&](const Eigen::Vector3d& p) {
+      return mechanics::gapTo(bar, p, travel_mm).g_m >= 0.0;
+    });
+  };
+  double low_mm = -reach_mm, high_mm = reach_mm;
+  if (free(low_mm) && !free(high_mm)) {
+    while (high_mm - low_mm > near_mm) {
+      const double middle_mm = 0.5 * (low_mm + high_mm);
+      (free(middle_mm) ? low_mm : high_mm) = middle_mm;
+    }
+    bar.shift(low_mm * at.direction);
+  }
+  return bar.centreline_m;
+}
+
 /// The bar of a scene; where it cannot lie at the point given it is shown there, with the reason.
 void placeBar(const pipeline::Scene& scene, const retraction::Model& model, const mechanics::TriangleSurface& smooth,
               const retraction::Body& body, const image::Mask& cells, const std::optional<retraction::PlacedBar>& proved,
@@ -206,7 +235,8 @@ void placeBar(const pipeline::Scene& scene, const retraction::Model& model, cons
     picture.bar->diameter_mm = bar->diameter_mm;
     picture.bar->length_mm = bar->length_mm;
     picture.bar->rigid = rigid;
-    picture.bar->hook = rigid && bar->shape == retraction::BarShape::Hook;
+    if (rigid && bar->shape == retraction::BarShape::Hook)
+      picture.bar->line_lps = hookLine(*picture.bar, model.youngs_kPa.grid, smooth);
   }
 }
 

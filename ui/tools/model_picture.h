@@ -20,8 +20,8 @@ struct BarPlace {
   Eigen::Vector3d direction = -Eigen::Vector3d::UnitY();  ///< of the hoist, unit
   double diameter_mm = 10.0, length_mm = 80.0;
   bool rigid = false;  ///< a body of its own at first touch; else a patch of pressure
-  bool hook = false;   ///< bent, though drawn straight
   BarProof proof = BarProof::None;
+  std::vector<Eigen::Vector3d> line_lps{};  ///< centre line of a rigid bar that is bent; empty: straight
 };
 
 /// What a model is made of, before anything is solved.

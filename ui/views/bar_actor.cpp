@@ -19,6 +19,7 @@ namespace {
 /// of its round ends, that of a patch all of it.
 anatomy::TriangleMesh meshOf(const tools::BarPlace& place) {
   const double radius = 0.5 * place.diameter_mm;
+  if (!place.line_lps.empty()) return render::barMesh(place.line_lps, radius);
   const Eigen::Vector3d centre = place.contact_lps - radius * place.direction.normalized();
   const double length_mm = place.rigid ? place.length_mm : std::max(0.02, place.length_mm - place.diameter_mm);
   const Eigen::Vector3d half = 0.5 * length_mm * place.axis;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <igtlClientSocket.h>
 #include <igtlPointMessage.h>
+#include <igtlStringMessage.h>
 #include <igtlTransformMessage.h>
 
 #include <chrono>
@@ -42,6 +43,7 @@ retraction::Setup hoist() {
 struct Frame {
   std::vector<Eigen::Vector3d> mre, atlas;  ///< LPS
   Eigen::Vector3d tool = Eigen::Vector3d::Zero();
+  std::string state;  ///< of the bar, where it is told
 };
 
 /// A client as 3D Slicer is one: RAS in and out.
@@ -93,6 +95,10 @@ class Client {
         igtl::Matrix4x4 matrix;
         m->GetMatrix(matrix);
         f.tool = Eigen::Vector3d(-matrix[0][3], -matrix[1][3], matrix[2][3]);
+      } else if (name == "RetractorState") {
+        igtl::StringMessage::Pointer m = igtl::StringMessage::New();
+        read(*m, h);
+        f.state = m->GetString();
       } else {
         std::vector<char> rest(static_cast<std::size_t>(h->GetBodySizeToRead()));
         socket_->Receive(rest.data(), static_cast<int>(rest.size()));
@@ -217,6 +223,62 @@ TEST_F(Live, EndsAfterTheFramesAskedForAtTheRateAskedFor) {
   const ServerStatistics s = served_.get();
   EXPECT_EQ(s.frames, 30);
   EXPECT_GT(std::chrono::duration<double>(Clock::now() - begin).count(), 0.1);
+}
+
+/// A liver of one point that does not bear a force beyond 1 N.
+class Brittle : public retraction::LiveRetraction {
+ public:
+  explicit Brittle(double scene_N) {
+    points_ = 1;
+    sceneForce_N_ = {0.0, -scene_N, 0.0};
+    sceneTarget_.force_N = sceneForce_N_;
+  }
+  retraction::LiveAnswer follow(const retraction::LiveTarget& target) override {
+    retraction::LiveAnswer at;
+    at.tool_mm = target.tool_mm;
+    at.slips = target.force_N && target.force_N->norm() > 1.0;
+    if (target.force_N) at.force_N = at.slips ? 0.7 * *target.force_N : *target.force_N;
+    return at;
+  }
+  void displacements(Eigen::Matrix3Xd& u_mm) const override { u_mm = Eigen::Matrix3Xd::Zero(3, 1); }
+};
+
+TEST(LiveSlip, IsToldInEveryFrameUntilItIsOver) {
+  const retraction::LiveLivers livers{std::make_unique<Brittle>(0.8), std::make_unique<Brittle>(2.0)};
+  std::stop_source stop;
+  std::promise<int> port;
+  auto open = port.get_future();
+  ServerOptions options;
+  options.port = 0;
+  auto served = std::async(std::launch::async, [&] {
+    return serve(livers, {Eigen::Vector3d::Zero()}, options, [&](int p) { port.set_value(p); },
+                 Progress({}, stop.get_token()));
+  });
+  Client client(open.get());
+  for (int n = 0; n < 3; ++n) EXPECT_EQ(client.next().state, "slips: atlas");
+  // Led by the hand no force is asked for: told once, then no more.
+  client.take({0.0, -3.0, 0.0});
+  std::string state;
+  do state = client.next().state;
+  while (state == "slips: atlas");
+  EXPECT_EQ(state, "holds");
+  for (int n = 0; n < 3; ++n) EXPECT_EQ(client.next().state, "");
+  stop.request_stop();
+  const ServerStatistics s = served.get();
+  EXPECT_GE(s.slipping, 3);
+  EXPECT_LT(s.slipping, s.frames);
+  EXPECT_FALSE(s.last.atlas.slips);
+}
+
+TEST(LiveRehearsal, CountsItsFramesWithoutAClient) {
+  const retraction::LiveLivers livers{std::make_unique<Brittle>(2.0), std::make_unique<Brittle>(0.8)};
+  const ServerStatistics s = rehearse(livers, 25);
+  EXPECT_EQ(s.frames, 25);
+  EXPECT_EQ(s.slipping, 25);
+  EXPECT_TRUE(s.last.mre.slips);
+  EXPECT_FALSE(s.last.atlas.slips);
+  EXPECT_GT(s.rate_hz, 0.0);
+  EXPECT_THROW(rehearse(livers, 0), BadArgument);
 }
 
 TEST_F(Live, RefusesAPortThatIsTaken) {
