@@ -8,6 +8,7 @@
 #include "base/sha256.h"
 #include "base/version.h"
 #include "mechanics/static_solve.h"
+#include "pipeline/detail/uncertainty_record.h"
 #include "retraction/ligaments.h"
 
 namespace glisson::pipeline::detail {
@@ -340,7 +341,9 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
                                     {"max_mm", d.vesselMax_mm},
                                     {"fraction_beyond_5mm", d.vesselFractionBeyond}};
   }
+  if (r.difference && r.uncertainty) addIntervals(*r.uncertainty, j["difference"]);
   if (scene.compare && !r.difference) j["difference"] = nullptr;
+  if (r.uncertainty) j["uncertainty"] = uncertaintyToJson(*r.uncertainty);
   if (r.stiffness) {
     const elastography::Statistics& s = r.stiffness->pooled;
     j["stiffness"] = {{"quantity", r.stiffness->quantity == StiffnessQuantity::Shear ? "shear" : "youngs"},

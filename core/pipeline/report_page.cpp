@@ -6,6 +6,7 @@
 #include "pipeline/detail/method_text.h"
 #include "pipeline/detail/outputs.h"
 #include "pipeline/detail/record.h"
+#include "pipeline/detail/uncertainty_record.h"
 #include "report/page.h"
 #include "report/text.h"
 
@@ -197,6 +198,7 @@ void Writer::report(const Scene& scene, const RunResult& r,
                     const std::vector<std::pair<std::string, std::string>>& inputs, render::Palette palette) {
   Page page(r.difference ? "Liver retraction, measured against textbook stiffness" : "Deformation under load");
   results(page, r);
+  if (r.uncertainty) howSure(*r.uncertainty, page);
   trust(page, r);
   kinematics(page, r);
   page.heading("Pictures");

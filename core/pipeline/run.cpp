@@ -18,6 +18,7 @@
 #include "pipeline/detail/needs.h"
 #include "pipeline/detail/outputs.h"
 #include "pipeline/detail/record.h"
+#include "pipeline/detail/uncertainty_step.h"
 
 namespace glisson::pipeline {
 namespace {
@@ -170,6 +171,10 @@ void tellOfScene(const Scene& scene, const detail::Needs& needs, RunResult& r) {
   if (scene.setup.poisson < 0.0) r.diagnostics.add(DiagnosticCode::PoissonNegative, {{"poisson", scene.setup.poisson}});
   if (scene.capsuleAsked && scene.setup.capsule && !needs.rigidBar)
     r.diagnostics.add(DiagnosticCode::CapsuleNotUsed,
+                      {{"instead", std::string(needs.retractor ? "the retractor is a patch of pressure"
+                                                               : "the scene has no retractor")}});
+  if (scene.uncertainty && !needs.uncertainty)
+    r.diagnostics.add(DiagnosticCode::UncertaintyNotOffered,
                       {{"instead", std::string(needs.retractor ? "the retractor is a patch of pressure"
                                                                : "the scene has no retractor")}});
 }
@@ -387,6 +392,11 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   }
   steps.run("difference", [&](const Progress&) {
     r.difference = comparison::compare(r.model, r.primary, *r.atlas, vessels.centreline_lps_mm);
+  });
+  if (!isAnswer(r.primary) || (r.atlas && !comparable)) steps.leaveOut("uncertainty", "one of the runs is no answer");
+  steps.run("uncertainty", [&](const Progress& p) {
+    r.uncertainty = detail::uncertaintyOf(scene, inputs, cells, setup, r.atlas ? &atlasModel : nullptr, r, p);
+    r.diagnostics.add(r.uncertainty->diagnostics);
   });
   if (const std::string doubt = doubtOf(r); !doubt.empty()) r.warnings.push_back(doubt);
   if (needs.pictures) {

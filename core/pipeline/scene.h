@@ -9,6 +9,7 @@
 #include "base/quantity.h"
 #include "dicom/series.h"
 #include "retraction/setup.h"
+#include "uncertainty/sources.h"
 
 namespace glisson::pipeline {
 
@@ -59,6 +60,7 @@ struct Scene {
   retraction::Setup setup;
   bool capsuleAsked = false;  ///< setup.capsule is what the scene says, not a default
   std::optional<CompareSpec> compare;
+  std::optional<uncertainty::Options> uncertainty;  ///< how sure the answer is; empty: not asked
   OutputSpec outputs;
   std::filesystem::path folder;  ///< relative paths of the file are resolved against this
 };
