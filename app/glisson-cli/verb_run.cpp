@@ -40,6 +40,7 @@ std::string summary(const pipeline::RunResult& r) {
       << (r.difference->clinically_significant ? " (clinically significant)" : "") << "\n";
   if (r.difference && r.difference->travel_mm)
     t << "            travel of the bar " << *r.difference->travel_mm << " mm (measured less atlas)\n";
+  if (r.uncertainty && r.uncertainty->known) t << "how sure    " << uncertainty::inWords(r.uncertainty->spread) << "\n";
   for (const std::string& d : r.diagnostics.texts()) t << "diagnosis   " << d << "\n";
   for (const std::string& w : r.warnings) t << "warning     " << w << "\n";
   for (const auto& f : r.files) t << "written     " << f.string() << "\n";
@@ -89,10 +90,13 @@ void addRun(CLI::App& app, Context& context) {
   verb->add_option("scene", *scenePath, "scene.json, or case.json as the workstation saves it")->required();
   verb->add_flag("--colour-blind", *colourBlind, "orange and blue instead of red and blue");
   verb->add_flag("--override", *overrideChecks, "take MRI and elastogram of other days or patients nevertheless");
-  verb->callback([&context, scenePath, colourBlind, overrideChecks] {
-    context.action = [&context, scenePath, colourBlind, overrideChecks] {
+  auto howSure = std::make_shared<bool>(false);
+  verb->add_flag("--uncertainty", *howSure, "say how sure the answer is, and what drives it (as \"uncertainty\": true)");
+  verb->callback([&context, scenePath, colourBlind, overrideChecks, howSure] {
+    context.action = [&context, scenePath, colourBlind, overrideChecks, howSure] {
       pipeline::Scene scene = pipeline::readScene(*scenePath);
       scene.geometry.overrideChecks = scene.geometry.overrideChecks || *overrideChecks;
+      if (*howSure && !scene.uncertainty) scene.uncertainty.emplace();
       if (context.seedGiven) scene.setup.seed = scene.setup.model.meshfree.seed = context.seed;
       useBackend(context);
       pipeline::RunOptions options;

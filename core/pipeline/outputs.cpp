@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "image/extend.h"
 #include "image/io.h"
+#include "pipeline/detail/uncertainty_record.h"
 #include "pipeline/pictures.h"
 #include "report/text.h"
 
@@ -130,14 +131,20 @@ void Writer::displacementFields(const RunResult& r) {
 }
 
 void Writer::vessels(const Scene&, const RunResult& r, const anatomy::VesselModel& vessels) {
-  report::Csv csv({"landmark", "x_mm", "y_mm", "z_mm", "radius_mm", "ux_mm", "uy_mm", "uz_mm", "difference_mm"});
+  std::vector<std::string> head = {"landmark", "x_mm", "y_mm", "z_mm", "radius_mm", "ux_mm", "uy_mm", "uz_mm", "difference_mm"};
+  const bool spread = r.uncertainty && r.uncertainty->known;
+  if (spread) head.insert(head.end(), spreadColumns.begin(), spreadColumns.end());
+  report::Csv csv(head);
   const auto u = retraction::displacementAt(r.model, r.primary, vessels.centreline_lps_mm);
   for (std::size_t i = 0; i < u.size(); ++i) {
     const Eigen::Vector3d& p = vessels.centreline_lps_mm[i];
     const double d = r.difference && i < r.difference->vessel_mm.size() ? r.difference->vessel_mm[i] : std::nan("");
     auto cell = [](double v) { return std::isfinite(v) ? number(v, 7) : std::string(); };
-    csv.row({std::to_string(i), cell(p.x()), cell(p.y()), cell(p.z()), cell(vessels.radius_mm[i]), cell(u[i].x()),
-             cell(u[i].y()), cell(u[i].z()), cell(d)});
+    std::vector<std::string> row = {std::to_string(i), cell(p.x()), cell(p.y()), cell(p.z()), cell(vessels.radius_mm[i]),
+                                    cell(u[i].x()), cell(u[i].y()), cell(u[i].z()), cell(d)};
+    if (spread)
+      for (const double v : spreadOf(*r.uncertainty, i)) row.push_back(cell(v));
+    csv.row(row);
   }
   text("vessels.csv", csv.text());
 }

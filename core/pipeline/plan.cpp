@@ -34,6 +34,7 @@ Needs::Needs(const Scene& s) {
   rigidBar = retraction::rigidBarOf(s.setup).has_value();
   const retraction::Kinematics k = s.setup.kinematics;
   newton = k != retraction::Kinematics::Linear && (k != retraction::Kinematics::Auto || rigidBar);
+  uncertainty = s.uncertainty.has_value() && rigidBar;
   condensed = s.setup.condensed;
   linearBeside = newton && !timeSteps;
   discretisation = !timeSteps;
@@ -314,6 +315,12 @@ std::vector<PlanStep> plan(const Scene& s) {
       solve_MB / 8);
   add("difference", n.compare, n.compare ? "how far apart the two place the same tissue" : "no comparison is asked for",
       0.01);
+  add("uncertainty", n.uncertainty,
+      n.uncertainty     ? "asked for: every source through the tangent of both answers, and some draws in full"
+      : s.uncertainty   ? "asked for, and offered for a rigid bar only"
+                        : "not asked for (\"uncertainty\")",
+      s.uncertainty ? (n.compare ? 2.0 : 1.0) * (0.1 * (s.uncertainty->fields + 12) + s.uncertainty->checks) * solve_s : 0.0,
+      2.0 * solve_MB);
   // On cells so large that the tangent, 0.7 kB for each degree of freedom, stays below 42 MB.
   add("linear-gap", !n.newton,
       n.newton     ? "the kinematics are not linear: \"linear-solve\" says what they add"

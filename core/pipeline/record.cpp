@@ -8,6 +8,7 @@
 #include "base/version.h"
 #include "pipeline/detail/result_json.h"
 #include "pipeline/detail/told.h"
+#include "pipeline/detail/uncertainty_record.h"
 
 namespace glisson::pipeline::detail {
 namespace {
@@ -236,7 +237,9 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
                                     {"max_mm", d.vesselMax_mm},
                                     {"fraction_beyond_5mm", d.vesselFractionBeyond}};
   }
+  if (r.difference && r.uncertainty) addIntervals(*r.uncertainty, j["difference"]);
   if (scene.compare && !r.difference) j["difference"] = nullptr;
+  if (r.uncertainty) j["uncertainty"] = uncertaintyToJson(*r.uncertainty);
   if (r.stiffness) {
     const elastography::Statistics& s = r.stiffness->pooled;
     j["stiffness"] = {{"quantity", r.stiffness->quantity == StiffnessQuantity::Shear ? "shear" : "youngs"},

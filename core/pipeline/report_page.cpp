@@ -7,6 +7,7 @@
 #include "pipeline/detail/outputs.h"
 #include "pipeline/detail/record.h"
 #include "pipeline/detail/told.h"
+#include "pipeline/detail/uncertainty_record.h"
 #include "report/page.h"
 #include "report/text.h"
 #include "retraction/contact_path.h"
@@ -217,6 +218,7 @@ void Writer::report(const Scene& scene, const RunResult& r,
   Page page(r.difference ? "Liver retraction, " + ownIn(scene) + " against textbook stiffness"
                          : std::string("Deformation under load"));
   results(page, scene, r);
+  if (r.uncertainty) howSure(*r.uncertainty, page);
   trust(page, scene, r);
   kinematics(page, r);
   page.heading("Pictures");

@@ -19,6 +19,7 @@
 #include "pipeline/detail/outputs.h"
 #include "pipeline/detail/record.h"
 #include "pipeline/detail/told.h"
+#include "pipeline/detail/uncertainty_step.h"
 #include "retraction/offered.h"
 
 namespace glisson::pipeline {
@@ -325,6 +326,11 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   }
   steps.run("difference", [&](const Progress&) {
     r.difference = comparison::compare(r.model, r.primary, *r.atlas, vessels.centreline_lps_mm);
+  });
+  if (!detail::isAnswer(r.primary) || (r.atlas && !comparable)) steps.leaveOut("uncertainty", "one of the runs is no answer");
+  steps.run("uncertainty", [&](const Progress& p) {
+    r.uncertainty = detail::uncertaintyOf(scene, inputs, cells, setup, r.atlas ? &atlasModel : nullptr, r, p);
+    r.diagnostics.add(r.uncertainty->diagnostics);
   });
   if (const std::string doubt = detail::doubtOf(r); !doubt.empty()) r.warnings.push_back(doubt);
   if (needs.pictures) {

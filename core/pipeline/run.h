@@ -16,6 +16,7 @@
 #include "retraction/discretisation.h"
 #include "retraction/rigid_contact.h"
 #include "retraction/simulate.h"
+#include "uncertainty/propagate.h"
 
 namespace glisson::pipeline {
 
@@ -41,6 +42,7 @@ struct RunResult {
   std::optional<retraction::Result> atlas;                        ///< where the scene compares
   std::optional<retraction::DiscretisationError> discretisation;  ///< of primary
   std::optional<comparison::Difference> difference;
+  std::optional<uncertainty::Uncertainty> uncertainty;  ///< where it is asked for and both runs are answers
   std::optional<LinearBeside> linear;                  ///< where a report of large deformation is asked for
   std::vector<Eigen::Vector3d> landmarks_mm;           ///< vessel centrelines at rest, LPS
   std::optional<elastography::Measurement> stiffness;  ///< over the region of interest, where MRE is used

@@ -154,6 +154,38 @@ CompareSpec readCompare(JsonObject o) {
   return c;
 }
 
+/// How sure: true, or what differs from the defaults.
+std::optional<uncertainty::Options> readUncertainty(JsonObject& scene) {
+  uncertainty::Options u;
+  if (!scene.has("uncertainty")) return {};
+  if (scene.raw("uncertainty").is_boolean()) return scene.boolean("uncertainty", false) ? std::optional(u) : std::nullopt;
+  JsonObject o = scene.object("uncertainty");
+  uncertainty::Spreads& s = u.spreads;
+  const auto spread = [&](const char* key, double& value, double unit, double most) {
+    if (!o.has(key)) return;
+    const double given = o.number(key);
+    if (!(given >= 0.0 && given <= most)) o.fail(key, "must lie between 0 and " + std::to_string(most));
+    value = given * unit;
+  };
+  spread("repeatability_percent", s.repeatability, 0.01, 100);
+  spread("noise_percent", s.noise, 0.01, 100);
+  spread("correlation_mm", s.correlation_mm, 1.0, 200);
+  spread("outline_mm", s.outline_mm, 1.0, 10);
+  spread("poisson", s.poisson, 1.0, 0.2);
+  spread("supports_percent", s.supports, 0.01, 100);
+  spread("capsule_percent", s.capsule, 0.01, 100);
+  spread("force_percent", s.force, 0.01, 100);
+  spread("density_percent", s.density, 0.01, 100);
+  spread("bar_mm", s.barPlace_mm, 1.0, 50);
+  spread("bar_deg", s.barTurn_deg, 1.0, 45);
+  u.fields = o.integer("fields", u.fields);
+  if (u.fields < 4 || u.fields > 1000) o.fail("fields", "must lie between 4 and 1000");
+  u.checks = o.integer("checks", u.checks);
+  if (u.checks < 0 || u.checks > 100) o.fail("checks", "must lie between 0 and 100");
+  o.finish();
+  return u;
+}
+
 OutputSpec readOutputs(JsonObject& scene) {
   OutputSpec out;
   if (!scene.has("outputs")) return out;
@@ -267,6 +299,7 @@ Scene parseScene(const std::string& text, const std::filesystem::path& folder, c
                                    : s.geometry.kind == GeometrySpec::Kind::Mask && found);
   if (!s.capsuleAsked && !retraction::wantsRigidBar(s.setup)) s.setup.capsule.reset();
   if (o.has("compare")) s.compare = readCompare(o.object("compare"));
+  s.uncertainty = readUncertainty(o);
   s.outputs = readOutputs(o);
   const double seed = o.number("seed", 1);
   if (seed < 0 || seed != std::floor(seed) || seed > 9e15)

@@ -10,6 +10,7 @@
 #include "base/quantity.h"
 #include "dicom/series.h"
 #include "retraction/setup.h"
+#include "uncertainty/sources.h"
 
 namespace glisson::pipeline {
 
@@ -64,6 +65,7 @@ struct Scene {
   std::vector<std::string> named;
   bool names(const std::string& key) const { return std::find(named.begin(), named.end(), key) != named.end(); }
   std::optional<CompareSpec> compare;
+  std::optional<uncertainty::Options> uncertainty;  ///< how sure the answer is; empty: not asked
   OutputSpec outputs;
   std::filesystem::path folder;  ///< relative paths of the file are resolved against this
 };

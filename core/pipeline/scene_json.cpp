@@ -195,6 +195,24 @@ Json toJson(const retraction::AnalysisSpec& a) {
           {"stop_when_steady", a.stopWhenSteady}};
 }
 
+Json toJson(const uncertainty::Options& u) {
+  const uncertainty::Spreads& s = u.spreads;
+  Json j = {{"repeatability_percent", 100 * s.repeatability},
+            {"correlation_mm", s.correlation_mm},
+            {"outline_mm", s.outline_mm},
+            {"poisson", s.poisson},
+            {"supports_percent", 100 * s.supports},
+            {"capsule_percent", 100 * s.capsule},
+            {"force_percent", 100 * s.force},
+            {"density_percent", 100 * s.density},
+            {"bar_mm", s.barPlace_mm},
+            {"bar_deg", s.barTurn_deg},
+            {"fields", u.fields},
+            {"checks", u.checks}};
+  if (s.noise >= 0) j["noise_percent"] = 100 * s.noise;
+  return j;
+}
+
 /// used: whether the scene's solver takes them; else they are written where the scene names them.
 Json solverToJson(const Scene& scene, bool used) {
   const retraction::Setup& s = scene.setup;
@@ -246,6 +264,7 @@ std::string toJson(const Scene& scene) {
     j["compare"] = {
         {"against", "atlas"},
         {scene.compare->quantity == StiffnessQuantity::Shear ? "shear_kPa" : "youngs_kPa", scene.compare->value_kPa}};
+  if (scene.uncertainty) j["uncertainty"] = toJson(*scene.uncertainty);
   Json outputs = Json::array();
   if (!scene.outputs.probes_mm.empty()) {
     Json points = Json::array();

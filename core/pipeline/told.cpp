@@ -60,6 +60,10 @@ Diagnostics toldOf(const Scene& scene) {
     said.add(DiagnosticCode::CapsuleNotUsed,
              {{"instead",
                std::string(needs.retractor ? "the retractor is a patch of pressure" : "the scene has no retractor")}});
+  if (scene.uncertainty && !needs.uncertainty)
+    said.add(DiagnosticCode::UncertaintyNotOffered,
+             {{"instead",
+               std::string(needs.retractor ? "the retractor is a patch of pressure" : "the scene has no retractor")}});
   tellOfUnused(scene, needs, said);
   return said;
 }

@@ -75,6 +75,15 @@ LargeDeformationAnswer solveWithoutBar(const Body& body, const Setup& setup, con
   return answer;
 }
 
+mechanics::NodalField onModelNodes(const Body& body, const ContactScene& scene, const mechanics::NodalField& u_m) {
+  const mechanics::VoxelMesh mesh(scene.problem.problem.body);
+  const int count = body.mesh().nodeCount();
+  mechanics::NodalField u = mechanics::NodalField::Zero(3, count);
+  for (int node = 0; node < count; ++node)
+    if (const int best = detail::nodeNear(mesh, body.mesh().latticeOf(node) + scene.layers); best >= 0) u.col(node) = u_m.col(best);
+  return u;
+}
+
 namespace {
 
 BarOutcome outcomeOf(mechanics::ContactOutcome outcome) {
@@ -119,6 +128,7 @@ RigidContact toRetraction(const Body& body, const ContactScene& scene, const mec
   c.hoist = vector(s.bar.hoist);
   for (const mechanics::PathStep& step : s.path) c.path.push_back({1e3 * step.travel_m, step.force_N});
   c.sample_mm = scene.sample_mm;
+  c.cut_u_m = s.solution.u_m;
   for (std::size_t i = 0; i < scene.problem.surface.size(); ++i) {
     c.sample_u_mm.push_back(1e3 * vector(s.surface_u_m.col(static_cast<Eigen::Index>(i))));
     c.sample_mm2.push_back(1e6 * scene.problem.surface[i].area_m2);
@@ -127,18 +137,11 @@ RigidContact toRetraction(const Body& body, const ContactScene& scene, const mec
   return c;
 }
 
-/// The answer on the nodes of the model's own cells; a node that no cut cell has takes that of the nearest which is.
+/// The answer on the nodes of the model's own cells.
 void toModelNodes(const Body& body, const ContactScene& scene, mechanics::Solution& s) {
   const mechanics::VoxelMesh mesh(scene.problem.problem.body);
-  const int count = body.mesh().nodeCount();
-  mechanics::NodalField u = mechanics::NodalField::Zero(3, count), reaction = mechanics::NodalField::Zero(3, count);
-  std::vector<char> told(static_cast<std::size_t>(mesh.nodeCount()), 0);
-  for (int node = 0; node < count; ++node) {
-    const int best = detail::nodeNear(mesh, body.mesh().latticeOf(node) + scene.layers);
-    if (best < 0) continue;
-    u.col(node) = s.u_m.col(best);
-    told[static_cast<std::size_t>(best)] = 1;
-  }
+  mechanics::NodalField u = onModelNodes(body, scene, s.u_m);
+  mechanics::NodalField reaction = mechanics::NodalField::Zero(3, body.mesh().nodeCount());
   // Reactions keep their sum: what acts on nodes of cut cells only is added to the first node of the model.
   for (int node = 0; node < mesh.nodeCount(); ++node) {
     const Eigen::Vector3i at = mesh.latticeOf(node) - scene.layers;

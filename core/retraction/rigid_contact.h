@@ -33,6 +33,10 @@ struct ContactScene {
 ContactScene contactScene(const Body& body, const Model& model, const Setup& setup, const MechanicsScene& scene,
                           const Retractor& bar);
 
+/// A displacement of the nodes of the cut cells on the nodes of the model's own; a node that no cut cell has takes that
+/// of the nearest which is.
+mechanics::NodalField onModelNodes(const Body& body, const ContactScene& scene, const mechanics::NodalField& u_m);
+
 /// Where the bar lies: as the scene says, or the first place on the lower right lobe that both stiffnesses bear by the
 /// mechanics of coarse cells, to 1.1 of the force.
 struct PlacedBar {

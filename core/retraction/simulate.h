@@ -70,6 +70,7 @@ struct RigidContact {
   /// Samples of the smooth surface: place at rest, displacement, area, pressure, one entry each.
   std::vector<Eigen::Vector3d> sample_mm, sample_u_mm;
   std::vector<double> sample_mm2, pressure_kPa;
+  mechanics::NodalField cut_u_m;  ///< on the nodes of the cut cells that were solved (contactScene), grid axes
 };
 
 /// What a ligament does to the liver at the end.

@@ -23,7 +23,8 @@ GOOD = {
               {"kind": "retractor", "at": [12, 10, 5], "force": 0.01, "length_mm": 8, "spread_mm": 2, "direction": "transverse"}],
     "model": {"kind": "fem-hex", "element": "H8-Bbar"}, "kinematics": "linear", "analysis": {"kind": "static"},
     "solver": {"kind": "cg", "iterations": 500, "tolerance": 1e-7, "preconditioner": "jacobi"},
-    "compare": {"against": "atlas", "shear_kPa": 2.1}, "outputs": [{"probe": [[20, 5, 5]]}, "displacement-field"], "seed": 3}
+    "compare": {"against": "atlas", "shear_kPa": 2.1}, "outputs": [{"probe": [[20, 5, 5]]}, "displacement-field"], "seed": 3,
+    "uncertainty": {"force_percent": 5, "bar_mm": 2, "fields": 8, "checks": 1}}
 
 BAD = [
     lambda s: s.update(colour=1),
@@ -49,6 +50,8 @@ BAD = [
     lambda s: s["compare"].update(against="nothing"),
     lambda s: s["outputs"].append("music"),
     lambda s: s.update(seed=-1),
+    lambda s: s.update(uncertainty={"fields": 1}),
+    lambda s: s.update(uncertainty={"force_percent": -2}),
 ]
 
 

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "report/page.h"
+#include "uncertainty/propagate.h"
+
+namespace glisson::pipeline::detail {
+
+/// "uncertainty" of run.json.
+nlohmann::ordered_json uncertaintyToJson(const uncertainty::Uncertainty& u);
+
+/// Adds "interval95" and "probability_beyond_5mm" to "difference" of run.json, where they are known.
+void addIntervals(const uncertainty::Uncertainty& u, nlohmann::ordered_json& difference);
+
+/// Columns of vessels.csv, and their values for a landmark (mm; not a number where it lies outside the body).
+inline constexpr std::array<const char*, 6> spreadColumns = {
+    "sd_mm", "atlas_sd_mm", "difference_sd_mm", "difference_low_mm", "difference_high_mm", "probability_beyond_5mm"};
+std::vector<double> spreadOf(const uncertainty::Uncertainty& u, std::size_t landmark);
+
+/// The section of the report.
+void howSure(const uncertainty::Uncertainty& u, report::Page& page);
+
+}  // namespace glisson::pipeline::detail

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "pipeline/run.h"
+
+namespace glisson::pipeline::detail {
+
+/// How sure the answers of a run are. atlas: the model of result.atlas, or null without a comparison; setup: with the
+/// bar in its place. Both results are answers in contact with a rigid bar.
+uncertainty::Uncertainty uncertaintyOf(const Scene& scene, const Inputs& inputs, const image::Mask& cells,
+                                       const retraction::Setup& setup, const retraction::Model* atlas,
+                                       const RunResult& result, const Progress& progress);
+
+}  // namespace glisson::pipeline::detail

@@ -1,0 +1,118 @@
+#include "pipeline/detail/uncertainty_record.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+#include "report/text.h"
+
+namespace glisson::pipeline::detail {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using report::number;
+using uncertainty::Interval;
+
+Json toJson(const Interval& i) {
+  return Json::array({i.low, i.high});
+}
+
+std::string range(const Interval& i) {
+  return number(i.low, 3) + " to " + number(i.high, 3) + " mm";
+}
+
+}  // namespace
+
+Json uncertaintyToJson(const uncertainty::Uncertainty& u) {
+  Json j = {{"known", u.known}};
+  if (!u.known) {
+    j["why"] = u.why;
+    return j;
+  }
+  j["sentence"] = uncertainty::inWords(u.spread);
+  j["atlas"] = "exact by definition";
+  j["sources"] = Json::array();
+  for (std::size_t i = 0; i < u.spread.sources.size(); ++i) {
+    const uncertainty::SourceSpread& s = u.spread.sources[i];
+    j["sources"].push_back({{"name", u.words[i].name},
+                            {"sd_mm", s.sd_mm},
+                            {"mean_sd_mm", s.mean_sd_mm},
+                            {"travel_sd_mm", s.travel_sd_mm},
+                            {"vessels_sd_mm", s.vessels_sd_mm},
+                            {"spread", u.words[i].spread},
+                            {"reference", u.words[i].reference}});
+  }
+  j["sd_of"] = u.spread.headline ? "difference at the retractor" : "places of the vessels";
+  j["checks"] = Json::array();
+  for (const uncertainty::Check& c : u.checks)
+    j["checks"].push_back(c.found ? Json{{"found", true},
+                                         {"change_mm", c.change_mm},
+                                         {"missed_mm", c.missed_mm},
+                                         {"at_retractor_mm", c.at_retractor_mm},
+                                         {"first_order_mm", c.first_order_mm}}
+                                  : Json{{"found", false}});
+  j["missed_share"] = u.missedShare;
+  j["fields"] = u.fields;
+  j["solves"] = u.solves;
+  j["iterations"] = u.iterations;
+  return j;
+}
+
+void addIntervals(const uncertainty::Uncertainty& u, Json& difference) {
+  if (!u.known || !u.spread.headline) return;
+  const uncertainty::Headline& h = *u.spread.headline;
+  Json& i = difference["interval95"];
+  i["mean_mm"] = toJson(h.mean_mm);
+  i["at_retractor_mm"] = toJson(h.at_retractor_mm);
+  if (h.vessels_max_mm) i["vessels_max_mm"] = toJson(*h.vessels_max_mm);
+  i["travel_mm"] = toJson(h.travel_mm);
+  difference["probability_beyond_5mm"] = h.beyond;
+}
+
+std::vector<double> spreadOf(const uncertainty::Uncertainty& u, std::size_t landmark) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const auto& all = u.spread.landmarks;
+  const auto found =
+      std::lower_bound(all.begin(), all.end(), landmark,
+                       [](const uncertainty::LandmarkSpread& l, std::size_t i) { return l.landmark < i; });
+  if (found == all.end() || found->landmark != landmark) return std::vector<double>(spreadColumns.size(), none);
+  const Interval interval = found->difference95_mm.value_or(Interval{none, none});
+  return {found->sd_mm,  found->textbook_sd_mm.value_or(none), found->difference_sd_mm.value_or(none), interval.low,
+          interval.high, found->beyond.value_or(none)};
+}
+
+void howSure(const uncertainty::Uncertainty& u, report::Page& page) {
+  page.heading("How sure?");
+  if (!u.known) {
+    page.paragraph("How sure this answer is cannot be told: " + u.why + ".");
+    return;
+  }
+  std::string sentence = uncertainty::inWords(u.spread);
+  sentence.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence.front())));
+  page.paragraph(sentence + ".");
+  if (u.spread.headline) {
+    const uncertainty::Headline& h = *u.spread.headline;
+    std::vector<std::pair<std::string, std::string>> rows = {{"Difference over the liver, mean", range(h.mean_mm)},
+                                                             {"At the retractor", range(h.at_retractor_mm)}};
+    if (h.vessels_max_mm) rows.emplace_back("Vessel landmarks, largest", range(*h.vessels_max_mm));
+    rows.emplace_back("Travel of the bar, measured less textbook", range(h.travel_mm));
+    page.table(rows);
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < u.spread.sources.size(); ++i) {
+    const uncertainty::SourceSpread& s = u.spread.sources[i];
+    rows.push_back({u.words[i].name, u.words[i].spread, number(s.sd_mm, 2) + " mm", number(s.vessels_sd_mm, 2) + " mm",
+                    number(s.travel_sd_mm, 2) + " mm"});
+  }
+  page.table(
+      {"Source (one standard deviation)", "of what", u.spread.headline ? "difference at the retractor" : "vessels",
+       "place of the vessels", "travel of the bar"},
+      rows);
+  page.paragraph(
+      "Intervals hold 95 %. The textbook stiffness is exact by definition: it is what one would have assumed. " +
+      std::to_string(u.checks.size()) + " draws of all sources were solved in full; the first order was " +
+      number(100 * u.missedShare, 2) + " % off them.");
+}
+
+}  // namespace glisson::pipeline::detail

@@ -1,0 +1,108 @@
+"""How sure: intervals, probability and sources of a run, in JSON, vessels.csv and the report; nothing of them unasked."""
+import csv
+import json
+import pathlib
+import tempfile
+import unittest
+
+from support import cli, cli_json, write_scene
+from test_contact import BAR, BLOCK, SHELF
+
+COMPARED = {**BLOCK, "geometry": {**BLOCK["geometry"], "cell_mm": 5}, "compare": {"against": "atlas", "youngs_kPa": 9.0}}
+
+
+class Uncertainty(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self._folder.name)
+        self.addCleanup(self._folder.cleanup)
+
+    def run_scene(self, scene, *arguments, code=0):
+        return cli_json("run", write_scene(self.folder, scene), "--output", self.folder / "out", *arguments, code=code)
+
+    def test_unasked_there_is_none(self):
+        r = self.run_scene(COMPARED)
+        self.assertNotIn("uncertainty", r)
+        self.assertNotIn("interval95", r["difference"])
+        step = next(s for s in r["plan"] if s["step"] == "uncertainty")
+        self.assertFalse(step["needed"])
+
+    def test_intervals_hold_the_figures_and_sources_are_named(self):
+        r = self.run_scene({**COMPARED, "outputs": ["report"]}, "--uncertainty")
+        d, u = r["difference"], r["uncertainty"]
+        self.assertTrue(u["known"])
+        for key in ("mean_mm", "at_retractor_mm", "travel_mm"):
+            low, high = d["interval95"][key]
+            self.assertLess(low, d[key], key)
+            self.assertGreater(high, d[key], key)
+        self.assertTrue(0 <= d["probability_beyond_5mm"] <= 1)
+        names = [s["name"] for s in u["sources"]]
+        # A box is exact, its stiffness was not measured, and its force was given.
+        self.assertEqual(names, ["poisson", "force", "bar-place", "bar-direction", "solver", "cells", "beyond-first-order"])
+        for s in u["sources"]:
+            self.assertGreaterEqual(s["sd_mm"], 0)
+            self.assertTrue(s["spread"] and s["reference"])
+        self.assertIn("probability", u["sentence"])
+        self.assertIn("How sure?", (self.folder / "out/report.html").read_text())
+        written = json.loads((self.folder / "out/scene.json").read_text())
+        self.assertEqual(written["uncertainty"]["checks"], 2)
+        again = self.run_scene({**COMPARED, "outputs": ["report"], "uncertainty": written["uncertainty"]})
+        self.assertEqual(again["difference"]["interval95"], d["interval95"])
+
+    def test_a_source_that_is_left_out_is_not_there_and_a_wider_one_widens(self):
+        narrow = self.run_scene({**COMPARED, "uncertainty": {"bar_mm": 0, "bar_deg": 0, "poisson": 0, "checks": 0}})
+        names = [s["name"] for s in narrow["uncertainty"]["sources"]]
+        self.assertEqual(names, ["force", "solver", "cells"])
+        wide = self.run_scene({**COMPARED, "uncertainty": {"bar_mm": 0, "bar_deg": 0, "poisson": 0, "checks": 0,
+                                                           "force_percent": 30}})
+        width = lambda r: r["difference"]["interval95"]["travel_mm"][1] - r["difference"]["interval95"]["travel_mm"][0]
+        self.assertAlmostEqual(width(wide), 3 * width(narrow), delta=0.1 * width(wide))
+
+    def test_what_is_no_answer_has_none_and_a_patch_is_told(self):
+        slipped = self.run_scene({**SHELF, "compare": {"against": "atlas", "youngs_kPa": 12.0}, "uncertainty": True}, code=4)
+        self.assertNotIn("uncertainty", slipped)
+        self.assertIsNone(slipped["difference"])
+        patch = self.run_scene({**COMPARED, "loads": [{**BAR, "contact": "patch"}], "kinematics": "linear",
+                                "uncertainty": True})
+        self.assertNotIn("uncertainty", patch)
+        self.assertIn("uncertainty-not-offered", {d["code"] for d in patch["diagnostics"]})
+
+    def test_bad_spreads_are_refused(self):
+        for bad in ({"force_percent": -1}, {"fields": 2}, {"poisson": 0.4}, {"colour": 1}, "yes"):
+            cli("plan", write_scene(self.folder, {**COMPARED, "uncertainty": bad}), "--quiet", code=3)
+
+
+class Patient(unittest.TestCase):
+    def test_every_vessel_has_its_spread(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            cli("phantom", "--cases", 1, "--seed", 3, "--output", folder, "--quiet")
+            path = folder / "patient-001/scene.json"
+            scene = json.loads(path.read_text())
+            scene["geometry"]["cell_mm"] = 8
+            scene["outputs"] = ["vessels"]
+            scene["uncertainty"] = {"fields": 8, "checks": 1}
+            path.write_text(json.dumps(scene))
+            r = cli_json("run", path, "--output", folder / "out")
+            u = r["uncertainty"]
+            if not u["known"]:
+                self.fail(u["why"])
+            self.assertEqual([s["name"] for s in u["sources"]][:3],
+                             ["elastogram-noise", "elastogram-repeatability", "outline"])
+            self.assertIn("vessels_max_mm", r["difference"]["interval95"])
+            with open(folder / "out/vessels.csv") as f:
+                rows = [row for row in csv.DictReader(f) if row["difference_mm"]]
+            self.assertGreater(len(rows), 100)
+            inside = 0
+            for row in rows:
+                self.assertGreater(float(row["sd_mm"]), 0)
+                self.assertGreater(float(row["atlas_sd_mm"]), 0)
+                self.assertTrue(0 <= float(row["probability_beyond_5mm"]) <= 1)
+                low, high = float(row["difference_low_mm"]), float(row["difference_high_mm"])
+                self.assertLessEqual(low, high)
+                inside += low <= float(row["difference_mm"]) <= high
+            self.assertGreater(inside, 0.9 * len(rows))
+
+
+if __name__ == "__main__":
+    unittest.main()
