@@ -149,7 +149,7 @@ class Scene3D : public QObject, private glisson::test::WindowBench {
     drag(view, from, from + QPoint(12, -10));
     const auto moved = session().parameters().placement;
     QVERIFY(moved.barAt_lps.has_value());
-    const auto& vertices = session().preview().picture()->liver.vertices_lps_mm;
+    const Eigen::Matrix3Xd vertices = session().preview().picture()->liver.vertices_lps_mm;  // pictures are replaced
     QVERIFY((vertices.colwise() - *moved.barAt_lps).colwise().norm().minCoeff() < 1e-9);
     QVERIFY(find<QLabel>("placementNumbers")->text() != words);
     // Turned and widened by its end, which stays across the hoist.
