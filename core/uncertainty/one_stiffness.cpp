@@ -39,7 +39,10 @@ OneStiffness::OneStiffness(const Retracted& retracted, const retraction::Setup& 
   mechanics::ContactOptions options;
   options.tolerance = std::max(1e-6, setup.solver.tolerance);
   const retraction::RigidContact& c = *retracted.result.contact;
-  equilibrium_ = std::make_unique<mechanics::Equilibrium>(scene_.problem, options, c.cut_u_m, mmToM * c.travel_mm);
+  const Eigen::Vector3d start_m = body_.toLocal_m(c.bar_mm.front()) +
+                                  scene_.layers.cast<double>().cwiseProduct(body_.voxels().h_m);
+  equilibrium_ =
+      std::make_unique<mechanics::Equilibrium>(scene_.problem, options, c.cut_u_m, mmToM * c.travel_mm, start_m);
 }
 
 double OneStiffness::surface_m2() const {

@@ -86,13 +86,15 @@ struct Equilibrium::Parts : Assembled {
   double residual = 0;
   SolidLevel cells;  ///< without springs and skin; its moduli are set for each use
 
-  Parts(const ContactProblem& p, const ContactOptions& o, const NodalField& u_m, double travel_m)
+  Parts(const ContactProblem& p, const ContactOptions& o, const NodalField& u_m, double travel_m,
+        const std::optional<Eigen::Vector3d>& barStart_m)
       : Assembled(p, o), options(o), cells(level()) {
     if (u_m.cols() != mesh.nodeCount()) throw BadArgument("Equilibrium: the displacements are those of another body");
     cells.springs.clear();
     cells.membrane = {};
     at.u = onNodeSlots(level(), mesh, u_m);
-    at.s = energy.hasBar() ? travel_m - 0.5 * options.zone_m : 0;
+    at.s = energy.hasBar() ? travel_m : 0;
+    if (energy.hasBar() && barStart_m) energy.moveBar(*barStart_m - energy.bar().centreline_m.front());
     ContactEnergy::Value value;
     if (!energy.evaluate(at, problem.force_N, travels(), value)) return;
     double sum = 0;
@@ -145,6 +147,16 @@ struct Equilibrium::Parts : Assembled {
   Unbalance byPoisson(bool shearKept);
   Unbalance bySupports();
   Unbalance bySkin();
+  /// The barrier goes with the mean modulus: adds what that does, where the cells' moduli rise by `more_Pa`.
+  void addBarrier(const std::vector<double>& more_Pa, Unbalance& out) const {
+    double rise = 0, sum = 0;
+    for (std::size_t c = 0; c < more_Pa.size(); ++c) {
+      if (!(problem.problem.body.E_Pa[c] > 0)) continue;
+      rise += more_Pa[c];
+      sum += problem.problem.body.E_Pa[c];
+    }
+    if (energy.hasBar()) addContact(energy.bar(), 0, rise / sum, out);
+  }
   Unbalance byBar(const Eigen::Vector3d& shift_m, const Eigen::Vector3d& turn_rad, const Eigen::Vector3d& pivot_m);
   Unbalance bySurface(const std::vector<double>& growth_Pa_m);
   EquilibriumMotion motionOf(const std::vector<double>& d) const {
@@ -207,6 +219,9 @@ Equilibrium::Unbalance Equilibrium::Parts::byModuli(const std::vector<double>& r
   Unbalance out = zero();
   addCells(E, mu, lambda, 1, out);
   addCells(body.E_Pa, mu, lambda, -positiveBy, out);
+  std::vector<double> more(relative.size());
+  for (std::size_t c = 0; c < more.size(); ++c) more[c] = body.E_Pa[c] * relative[c];
+  addBarrier(more, out);
   return free(std::move(out));
 }
 
@@ -219,6 +234,11 @@ Equilibrium::Unbalance Equilibrium::Parts::byPoisson(bool shearKept) {
   Unbalance out = zero();
   addCells(body.E_Pa, mu + muBy, lambda + lambdaBy, 1, out);
   addCells(body.E_Pa, mu, lambda, -1, out);
+  if (shearKept) {
+    std::vector<double> more = body.E_Pa;
+    for (double& E : more) E /= 1 + nu;
+    addBarrier(more, out);
+  }
   return free(std::move(out));
 }
 
@@ -270,6 +290,7 @@ Equilibrium::Unbalance Equilibrium::Parts::bySurface(const std::vector<double>& 
     for (std::size_t c = 0; c < E.size(); ++c)
       if (!(problem.problem.body.E_Pa[c] > 0)) E[c] = 0;
     addCells(E, lameMu(nu), lameLambda(nu), 1, out);
+    addBarrier(E, out);
   }
   if (energy.hasBar())
     for (const double side : {-1.0, 1.0})
@@ -278,8 +299,8 @@ Equilibrium::Unbalance Equilibrium::Parts::bySurface(const std::vector<double>& 
 }
 
 Equilibrium::Equilibrium(const ContactProblem& problem, const ContactOptions& options, const NodalField& u_m,
-                         double travel_m)
-    : parts_(std::make_unique<Parts>(problem, options, u_m, travel_m)) {}
+                         double travel_m, const std::optional<Eigen::Vector3d>& barStart_m)
+    : parts_(std::make_unique<Parts>(problem, options, u_m, travel_m, barStart_m)) {}
 Equilibrium::~Equilibrium() = default;
 Equilibrium::Equilibrium(Equilibrium&&) noexcept = default;
 

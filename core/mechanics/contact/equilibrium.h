@@ -30,7 +30,10 @@ class Equilibrium {
   using Unbalance = std::vector<double>;
 
   /// u_m, travel_m: as ContactSolution has them for this problem and these options.
-  Equilibrium(const ContactProblem& problem, const ContactOptions& options, const NodalField& u_m, double travel_m);
+  /// barStart_m: first point of the bar's centre line at travel 0 (ContactSolution::bar), where loads have moved the body
+  /// before the bar came; else the bar starts at its first force on the body at rest.
+  Equilibrium(const ContactProblem& problem, const ContactOptions& options, const NodalField& u_m, double travel_m,
+              const std::optional<Eigen::Vector3d>& barStart_m = {});
   ~Equilibrium();
   Equilibrium(Equilibrium&&) noexcept;
 
