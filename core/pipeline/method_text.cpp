@@ -67,10 +67,13 @@ struct LoadInWords {
     std::string t = "a retractor bar of " + number(l.diameter_mm) + " mm diameter and " + number(l.length_mm) +
                     " mm length along " + inWords(l.patchAxis()) + ", ";
     t += l.at_mm ? "put at " + inWords(*l.at_mm) + " mm" : "put under the inferior right lobe";
-    t += ", lifting along " + inWords(l.direction) + " with " +
-         (l.force_N ? number(*l.force_N) + " N" : "the weight of the body");
+    t += ", lifting along " + inWords(l.direction) + " " +
+         (l.travel_mm ? "by a travel of " + number(*l.travel_mm) + " mm"
+          : l.force_N ? "with " + number(*l.force_N) + " N"
+                      : "with the weight of the body");
     if (r.primary.contact)
-      t += "; a rigid bar that pushes and does not pull";
+      t += l.shape == retraction::BarShape::Hook ? "; a rigid bar, bent by 90 degrees, that pushes and does not pull"
+                                                 : "; a rigid bar that pushes and does not pull";
     else
       t += l.spread_mm > 0
                ? "; its pressure spreads into the tissue with a standard deviation of " + number(l.spread_mm) + " mm"
@@ -134,7 +137,8 @@ std::string modelInWords(const Scene& scene, const RunResult& r) {
   switch (s.model.kind) {
     case retraction::ModelKind::FemHex:
       t = std::string("Voxel finite elements (hexahedra, ") +
-          (s.model.element == mechanics::HexElement::H8     ? "trilinear"
+          (r.primary.contact                                ? "trilinear with mean dilatation, cut by the surface"
+           : s.model.element == mechanics::HexElement::H8     ? "trilinear"
            : s.model.element == mechanics::HexElement::BBar ? "trilinear with mean dilatation"
                                                             : "with nine incompatible modes") +
           ")";
@@ -148,6 +152,14 @@ std::string modelInWords(const Scene& scene, const RunResult& r) {
       break;
   }
   t += ", " + std::to_string(r.primary.dofs) + " degrees of freedom, " + nameOf(r.primary.kinematics) + " kinematics. ";
+  if (r.primary.contact && r.primary.kinematics != retraction::Kinematics::Linear)
+    t += s.law == mechanics::SolidLaw::Logarithmic ? "Material: compressible neo-Hookean, U(J) = -µ ln J + λ/2 (ln J)². "
+                                                   : "Material: compressible neo-Hookean, U(J) polynomial in J. ";
+  if (r.primary.contact && s.capsule)
+    t += "Glisson's capsule of " + number(s.capsule->tension_N_per_mm) + " N/mm (Young's modulus times thickness; Umale " +
+         "et al. 2011) " +
+         (s.capsule->form == retraction::CapsuleForm::Membrane ? "as a membrane on the surface. "
+                                                               : "in the cells below the surface. ");
   if (s.analysis.dynamic)
     t += "Implicit Euler with steps of " + number(s.analysis.h_ms) + " ms to " + number(s.analysis.end_s) +
          " s, Rayleigh damping " + number(s.analysis.rayleigh[0]) + " 1/s and " + number(s.analysis.rayleigh[1]) +

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 Json poseToJson(const retraction::PlacedBar& placed) {
   Json j = {{"centre_mm", vectorToJson(*placed.bar.at_mm)},
             {"axis", vectorToJson(*placed.bar.axis)},
-            {"bears", placed.bears}};
+            {"bears", placed.tried.empty() ? Json(nullptr) : Json(placed.bears)}};
   if (placed.pose) {
     j["height_mm"] = placed.pose->height_mm;
     j["covered_mm"] = placed.pose->covered_mm;

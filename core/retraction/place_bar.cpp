@@ -46,9 +46,8 @@ PlacedBar placeBar(const Model& model, const Model* other, const Setup& setup, c
       options.tolerance = 1e-2;
       const mechanics::ContactSolution s = mechanics::solveContact(contact.problem, options, progress);
       const double asked = contact.problem.force_N ? proof * *contact.problem.force_N : 0;
-      least = std::min(least, s.outcome == mechanics::ContactOutcome::Reached || asked == 0
-                                  ? proof
-                                  : proof * s.capacity_N / asked);
+      const double share = asked > 0 ? s.capacity_N / asked : s.travel_m / *contact.problem.travel_m;
+      least = std::min(least, s.outcome == mechanics::ContactOutcome::Reached ? proof : proof * std::min(share, 1.0));
     }
     placed.tried.push_back({candidates[i].height_mm, least});
     if (least > best) {

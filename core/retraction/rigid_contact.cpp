@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "mechanics/contact/barrier.h"
 #include "retraction/detail/contact_scene.h"
 #include "retraction/ligaments.h"
 
@@ -124,7 +125,8 @@ RigidContact toRetraction(const Body& body, const ContactScene& scene, const mec
   c.smallestJ = s.smallestJ;
   for (const Eigen::Vector3d& p : s.bar.centreline_m) c.bar_mm.push_back(body.toLps_mm(p - shift_m));
   c.barRadius_mm = 1e3 * s.bar.radius_m;
-  c.moved_mm = 1e3 * (s.bar.centre_m() - scene.problem.bar->centre_m()).dot(s.bar.hoist) - barBehind_mm + c.barRadius_mm;
+  c.moved_mm = 1e3 * (s.bar.centre_m() - scene.problem.bar->centre_m()).dot(s.bar.hoist) - barBehind_mm + c.barRadius_mm +
+               0.5e3 * mechanics::barrierWidth(mechanics::ContactOptions{}.zone_m, s.bar.radius_m);
   c.hoist = vector(s.bar.hoist);
   for (const mechanics::PathStep& step : s.path) c.path.push_back({1e3 * step.travel_m, step.force_N});
   c.sample_mm = scene.sample_mm;

@@ -21,7 +21,7 @@ using mechanics::SolidLaw;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// A box of cubes whose floor y = 0 is held, and samples of its face y+, two to a cell's edge.
+/// A box of cubes whose floor y = 0 is held, and samples of its face y+ as scenes have them, 1.5 mm and half an edge apart at most.
 mechanics::ContactProblem onFloor(const Vector3d& size_mm, double h_mm, double E_Pa, double poisson) {
   mechanics::ContactProblem p;
   mechanics::VoxelBody& body = p.problem.body;
@@ -33,10 +33,11 @@ mechanics::ContactProblem onFloor(const Vector3d& size_mm, double h_mm, double E
   p.problem.f_N = mechanics::NodalField::Zero(3, mesh.nodeCount());
   for (int n = 0; n < mesh.nodeCount(); ++n)
     if (mesh.latticeOf(n).y() == 0) p.problem.supports.fixations.push_back({n, {true, true, true}, {0, 0, 0}});
-  const double half = 0.5 * body.h_m.x(), top = body.h_m.y() * body.cells.y();
-  for (int k = 0; k < 2 * body.cells.z(); ++k)
-    for (int i = 0; i < 2 * body.cells.x(); ++i)
-      p.surface.push_back({{(i + 0.5) * half, top, (k + 0.5) * half}, Vector3d::UnitY(), half * half});
+  const int parts = std::max(2, static_cast<int>(std::ceil(h_mm / 1.5)));
+  const double part = body.h_m.x() / parts, top = body.h_m.y() * body.cells.y();
+  for (int k = 0; k < parts * body.cells.z(); ++k)
+    for (int i = 0; i < parts * body.cells.x(); ++i)
+      p.surface.push_back({{(i + 0.5) * part, top, (k + 0.5) * part}, Vector3d::UnitY(), part * part});
   return p;
 }
 

@@ -37,13 +37,15 @@ ContactEnergy::ContactEnergy(const SolidHierarchy& hierarchy, std::vector<Surfac
       tethers_(problem.tethers),
       pressures_(problem.pressures),
       law_(problem.law), bar_(problem.bar) {
-  barrier_.width_m = options.zone_m;
-  barrier_.kappa_Pa_m = perModulus_1_m * meanModulus(problem.problem.body) * 1e-3 / options.zone_m;
+  barrier_.width_m = bar_ ? barrierWidth(options.zone_m, bar_->radius_m) : options.zone_m;
+  barrier_.kappa_Pa_m = perModulus_1_m * meanModulus(problem.problem.body) * 1e-3 / barrier_.width_m;
   if (!pressures_.empty())
     potential_ = potentialOf(VoxelMesh(problem.problem.body), pressures_, problem.problem.supports.fixations);
   if (!bar_) return;
   barrier_.guard_m = 0.4 * bar_->radius_m;
-  bringToTouch();
+  std::vector<Eigen::Vector3d> atRest;
+  for (const SurfaceSample& s : surface_) atRest.push_back(s.p_m);
+  bringToForce(atRest);
   findNeighbours();
 }
 

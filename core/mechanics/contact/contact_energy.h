@@ -54,6 +54,8 @@ class ContactEnergy {
   /// tethers given one by one.
   double addHolding(const State& at, double* forces, std::vector<Eigen::Vector3d>& tether_N) const;
 
+  /// The bar is brought to the first force on the body as it is in this state, whose travel does not count.
+  void bringToForce(const State& at);
   /// The bar is taken elsewhere, beside its travel.
   void moveBar(const Eigen::Vector3d& by_m);
   /// Of the bar on the body, N.
@@ -74,8 +76,8 @@ class ContactEnergy {
   /// f(points, triangle) for the four triangles of a face, each pair of diagonals half.
   template <class F>
   void forTriangles(const State& at, const F& f) const;
-  /// The bar is brought from behind to its first touch.
-  void bringToTouch();
+  /// The bar is brought from behind to where the barrier begins: there its travel is 0.
+  void bringToForce(const std::vector<Eigen::Vector3d>& places_m);
   /// The samples around each on the surface at rest, that look the same way.
   void findNeighbours();
   /// The samples that can be in contact in this state: all others are out of the barrier's zone.

@@ -20,12 +20,19 @@ constexpr double cutOfRadius = 0.5;
 
 }  // namespace
 
-void ContactEnergy::bringToTouch() {
+void ContactEnergy::bringToForce(const State& at) {
+  std::vector<Eigen::Vector3d> places;
+  for (std::size_t p = 0; p < surface_.size(); ++p) places.push_back(place(p, at));
+  bringToForce(places);
+  near_ = {};
+}
+
+void ContactEnergy::bringToForce(const std::vector<Eigen::Vector3d>& places_m) {
   constexpr double far_m = 0.5;
   const auto nearest = [&](double s) {
     double g = std::numeric_limits<double>::infinity();
-    for (const SurfaceSample& p : surface_) g = std::min(g, gapTo(*bar_, p.p_m, s).g_m);
-    return g;
+    for (const Eigen::Vector3d& p : places_m) g = std::min(g, gapTo(*bar_, p, s).g_m);
+    return g - 0.5 * barrier_.width_m;
   };
   // Sphere tracing: a bar moved by no more than its distance from the surface cannot pass it.
   double s = -far_m;

@@ -2,6 +2,7 @@
 #include <array>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "mechanics/contact/contact_solver.h"
 
@@ -13,6 +14,8 @@ using State = ContactSolver::State;
 constexpr double farthest_m = 0.2;  ///< of travel
 /// Where the body snaps and no short step is possible, longer ones may lead to where it bears the bar again.
 constexpr std::array<double, 2> leap_m = {3e-3, 6e-3};
+constexpr int closer = 8;  ///< parts of the two steps beside the largest force
+constexpr double closeTolerance = 1e-4;
 constexpr double base_m = 2e-3;     ///< of travel, that a leap is predicted from
 constexpr double fallen = 0.98;     ///< of the largest force, where no step is possible: the bar slips
 
@@ -20,7 +23,7 @@ struct Path {
   ContactSolver& solver;
   State& state;
   bool first;
-  double goal_N, before_m, end_m;  ///< before_m: travel counts from the first force
+  double goal_N, end_m;
   double step = ContactSolver::firstStep_m, last_N = 0, best_N = 0, bestAt_m = 0;
   State before, reached;
   bool has = false;  ///< `reached` bears the force; the path goes on to its proof
@@ -32,13 +35,35 @@ struct Path {
         state(at),
         first(kind == PathKind::First),
         goal_N(s.problem().force_N ? (first ? s.options().proof : 1.0) * *s.problem().force_N : 0),
-        before_m(0.5 * s.options().zone_m),
-        end_m(s.problem().travel_m ? *s.problem().travel_m - before_m : std::numeric_limits<double>::infinity()),
+        end_m(s.problem().travel_m ? *s.problem().travel_m : std::numeric_limits<double>::infinity()),
         last_N(s.barForce(at)),
         best_N(last_N),
         bestAt_m(at.s),
         before(at) {
-    if (first) solver.out().path.push_back({state.s + before_m, last_N});
+    if (first) solver.out().path.push_back({state.s, last_N});
+  }
+
+  /// Between the steps beside the largest force, in short steps to a close answer: that is its maximum. True where the
+  /// force asked for is borne there after all.
+  bool bearsCloser() {
+    const std::vector<State>& trail = solver.trail();
+    const auto top = std::find_if(trail.begin(), trail.end(), [&](const State& s) { return s.s >= bestAt_m - 1e-9; });
+    if (!solver.problem().force_N || trail.empty() || top == trail.begin()) return false;
+    State last = *(top - 1), at = last;
+    const double end = top + 1 < trail.end() ? (top + 1)->s : state.s, part = (end - last.s) / closer;
+    for (int i = 1; i < closer; ++i) {
+      State trial = at;
+      for (std::size_t d = 0; i > 1 && d < trial.u.size(); ++d) trial.u[d] += at.u[d] - last.u[d];
+      trial.s = at.s + part;
+      if (!solver.energy().passes(at, trial) || !solver.converge(trial, {}, closeTolerance, 40).converged) return false;
+      last = std::exchange(at, std::move(trial));
+      const double force_N = solver.barForce(at);
+      best_N = std::max(best_N, force_N);
+      if (force_N < *solver.problem().force_N) continue;
+      state = std::move(at);
+      return true;
+    }
+    return false;
   }
 
   bool ended(ContactOutcome outcome, bool exceeded) {
@@ -91,6 +116,7 @@ struct Path {
     }
     // Where not even the first step was possible, nothing is known of what the place bears; nor where the coarse cells
     // bore more, and the force has not fallen on these.
+    if (first && !has && !solver.cuts() && bearsCloser()) return ended(ContactOutcome::Reached, false);
     const bool gave = steps > 0 && !solver.cuts() && ((first && indefinite) || last_N < fallen * best_N);
     return ended(has                  ? ContactOutcome::Reached
                  : best_N > 0 && gave ? ContactOutcome::Slips
@@ -107,14 +133,14 @@ struct Path {
     if (leaps > 0) step = ContactSolver::firstStep_m;
     leaps = 0;
     ContactSolution& out = solver.out();
-    if (first) out.path.push_back({state.s + before_m, force_N});
+    if (first) out.path.push_back({state.s, force_N});
     else solver.met(force_N);
     ++steps;
     out.largestDrop_N = std::max(out.largestDrop_N, last_N - force_N);
     last_N = force_N;
     std::ostringstream what;
     what.precision(3);
-    what << "bar at " << 1e3 * (state.s + before_m) << " mm, " << force_N << " N";
+    what << "bar at " << 1e3 * state.s << " mm, " << force_N << " N";
     const double done = goal_N > 0 ? force_N / goal_N : state.s / solver.problem().travel_m.value_or(0.1);
     solver.progress().report(0.05 + 0.6 * std::min(1.0, done), what.str());
     if (force_N > best_N) {
@@ -136,7 +162,10 @@ struct Path {
       return ended(ContactOutcome::Reached, false);
     }
     if (last_N < ContactSolver::slipFall * best_N || state.s > bestAt_m + ContactSolver::slipTravel_m) {
-      if (has) state = std::move(reached);
+      if (has)
+        state = std::move(reached);
+      else if (first && bearsCloser())
+        return ended(ContactOutcome::Reached, false);
       return ended(ContactOutcome::Slips, true);
     }
     return {};

@@ -223,15 +223,10 @@ void describe(const SolidHierarchy& hierarchy, const ContactEnergy& energy, cons
               const std::vector<std::size_t>& kept, const ContactEnergy::State& at, ContactSolution& out) {
   const SolidLevel& level = hierarchy.level(energy.top());
   const std::size_t n = level.nodes();
-  // Travel counts from the first force, where the barrier begins: half its width before the surfaces meet.
-  const double before_m = 0.5 * energy.barrier().width_m;
-  out.travel_m = energy.hasBar() ? std::max(0.0, at.s + before_m) : 0;
+  out.travel_m = energy.hasBar() ? at.s : 0;
   out.smallestJ = level.smallestVolumeRatio(at.u.data());
   describeContact(energy, kept, at, problem.surface.size(), out);
-  if (energy.hasBar()) {
-    out.bar = energy.bar();
-    out.bar.shift(-before_m * out.bar.hoist);
-  }
+  if (energy.hasBar()) out.bar = energy.bar();
   if (energy.top() != 0) return;
   const VoxelMesh mesh(problem.problem.body);
   Solution& solution = out.solution;

@@ -189,14 +189,18 @@ bool ContactSolver::loadInSteps(State& state, double tolerance) {
   return true;
 }
 
-/// Loads act from the beginning: they come first, with the bar where it touches.
+/// Loads act from the beginning: they come first, with the bar away, which then comes to the body as they leave it.
 bool ContactSolver::moveBar(State& state) {
-  state.s = -0.5 * options_.zone_m;
-  const bool loaded = !problem_.pressures.empty() || !loads_[energy_.top()].empty();
-  if (loaded && !loadInSteps(state, pathTolerance)) {
-    out_.outcome = ContactOutcome::LoadsNotBorne;
-    return false;
+  constexpr double away_m = 0.1;
+  if (!problem_.pressures.empty() || !loads_[energy_.top()].empty()) {
+    state.s = -away_m;
+    if (!loadInSteps(state, pathTolerance)) {
+      out_.outcome = ContactOutcome::LoadsNotBorne;
+      return false;
+    }
+    energy_.bringToForce(state);
   }
+  state.s = 0;
   return followPath(*this, state, PathKind::First) && finish(state);
 }
 

@@ -121,17 +121,20 @@ ContactTracker::ContactTracker(const ContactProblem& problem, const std::vector<
   while (p.dofsOf(l) > options.mostDofs && l + 2 < p.hierarchy.levels()) ++l;
   p.energy.setLoads(l, loadsOnLevels(p.hierarchy, problem)[l]);
   p.dofs = p.dofsOf(l);
-  // The first force is met where the barrier begins.
-  p.energy.moveBar(-0.5 * contact.zone_m * p.energy.bar().hoist);
-  p.rest = p.energy.bar();
   p.watch(problem, points_m);
   p.now.u = l == 0 ? prescribedOnFinest(p.level(), problem) : std::vector<double>(3 * p.level().nodes(), 0.0);
   NewtonGoal goal;
   goal.tolerance = options.tolerance;
+  // Loads come first, with the bar away, which then comes to the body as they leave it.
+  constexpr double away_m = 0.1;
+  p.now.s = -away_m;
   const NewtonRun run = minimise(p.hierarchy, p.energy, p.now, goal, progress);
   if (!run.converged)
     throw SolverFailed("the body finds no equilibrium under its loads before the retractor touches it; check its loads",
                        run.iterations, run.residual, goal.tolerance);
+  p.now.s = 0;
+  p.energy.bringToForce(p.now);
+  p.rest = p.energy.bar();
   p.before = p.now;
 }
 
