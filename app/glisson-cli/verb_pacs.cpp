@@ -137,6 +137,8 @@ int receive(Arguments a, const Context& context) {
   if (a.receiveCount > 0) a.receive.count = a.receiveCount;
   if (a.receiveFor_s > 0) a.receive.idle_s = a.receiveFor_s;
   pacs::Receiver receiver(a.receive);
+  if (a.receive.bind.rfind("127.", 0) == 0)
+    context.note("note: this computer alone can send; --bind opens the port to a network");
   if (a.receive.callers.empty()) context.note("note: any AE title may send; --calling names those that may");
   const Progress progress = context.progress();
   receiver.run(progress);
@@ -216,6 +218,8 @@ void addPacs(CLI::App& app, Context& context) {
 
   sub = add(*verb, context, a, "receive", "receive objects into the folder --output until done (C-STORE)", receive);
   sub->add_option("--port", a->receive.port, "port to listen on")->required();
+  sub->add_option("--bind", a->receive.bind, "address to listen on; 0.0.0.0 = every network of this computer")
+      ->capture_default_str();
   sub->add_option("--called", a->receive.title, "our AE title: calls to another one are rejected")
       ->capture_default_str();
   sub->add_option("--calling", a->receive.callers, "AE titles that may send; any where none is given");

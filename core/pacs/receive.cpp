@@ -4,14 +4,17 @@
 // Parts of DCMTK's network layer need its configuration first.
 #include <dcmtk/dcmnet/assoc.h>
 #include <dcmtk/dcmnet/cond.h>
+#include <dcmtk/dcmnet/dul.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <list>
+#include <mutex>
 #include <thread>
 
 #include "pacs/detail/association.h"
+#include "pacs/detail/door.h"
 #include "pacs/detail/object_store.h"
 #include "pacs/detail/syntaxes.h"
 
@@ -23,7 +26,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Longest wait for the request of a caller that has connected: meanwhile nobody else is let in.
+/// Longest wait for the whole request of a caller that has connected; others are let in meanwhile.
 constexpr int requestWait_s = 5;
 /// After the last wanted object, so long may callers take to say goodbye.
 constexpr auto farewell = std::chrono::seconds(2);
@@ -79,10 +82,31 @@ void serve(T_ASC_Association* association, ObjectStore& store, const ReceiveOpti
   ASC_destroyAssociation(&association);
 }
 
+/// While it lives, DCMTK takes a socket of ours where it would open or accept one; there is one such socket in a
+/// process.
+class OwnSocket {
+ public:
+  explicit OwnSocket(int socket) : lock_(mutex()) { dcmExternalSocketHandle.set(socket); }
+  ~OwnSocket() { dcmExternalSocketHandle.set(DCMNET_INVALID_SOCKET); }
+  OwnSocket(const OwnSocket&) = delete;
+  OwnSocket& operator=(const OwnSocket&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  std::lock_guard<std::mutex> lock_;
+};
+
 }  // namespace
 
 struct Receiver::State {
-  explicit State(const ReceiveOptions& o) : options(o), store(o.folder, limitsOf(o)) {}
+  explicit State(const ReceiveOptions& o) : options(o), store(o.folder, limitsOf(o)), door(o.bind, o.port) {
+    const OwnSocket listening(door.descriptor());
+    if (ASC_initializeNetwork(NET_ACCEPTOR, o.port, o.timeout_s, &network).bad())
+      throw NetworkError("the network cannot be used");
+  }
   ~State() {
     if (network != nullptr) ASC_dropNetwork(&network);
   }
@@ -98,22 +122,26 @@ struct Receiver::State {
     std::jthread thread;
   };
 
-  void letIn();
+  void letIn(int socket);
   void reap() {
     guests.remove_if([](const std::unique_ptr<Guest>& g) { return g->done.load(); });
   }
 
   ReceiveOptions options;
   ObjectStore store;
+  Door door;
   T_ASC_Network* network = nullptr;
   std::stop_source stop;
   std::list<std::unique_ptr<Guest>> guests;
 };
 
-void Receiver::State::letIn() {
+void Receiver::State::letIn(int socket) {
   T_ASC_Association* association = nullptr;
-  const OFCondition received = ASC_receiveAssociation(network, &association, 65536, nullptr, nullptr, OFFalse,
-                                                      DUL_NOBLOCK, std::min(requestWait_s, options.timeout_s));
+  const OFCondition received = [&] {
+    const OwnSocket caller(socket);
+    return ASC_receiveAssociation(network, &association, 65536, nullptr, nullptr, OFFalse, DUL_NOBLOCK,
+                                  std::min(requestWait_s, options.timeout_s));
+  }();
   DIC_AE calling{}, called{};
   if (received.good())
     ASC_getAPTitles(association->params, calling, sizeof(calling), called, sizeof(called), nullptr, 0);
@@ -160,11 +188,8 @@ Receiver::Receiver(const ReceiveOptions& options) {
   if (options.idle_s && *options.idle_s < 1) throw BadInput("the time to wait must be 1 s or more");
   checkTitle(options.title, "--called");
   for (const std::string& c : options.callers) checkTitle(c, "--calling");
-  state_ = std::make_unique<State>(options);
   quietNetwork(options.timeout_s);
-  if (ASC_initializeNetwork(NET_ACCEPTOR, options.port, options.timeout_s, &state_->network).bad())
-    throw NetworkError("nothing can listen on port " + std::to_string(options.port) +
-                       ": it is taken, or below 1024 and not allowed; give another");
+  state_ = std::make_unique<State>(options);
 }
 
 Receiver::~Receiver() = default;
@@ -178,8 +203,8 @@ void Receiver::run(const Progress& progress) {
   auto quietSince = Clock::now();
   std::optional<Clock::time_point> last;
   std::size_t told = 0;
-  progress.report(0.0, "listening on port " + std::to_string(s.options.port));
   try {
+    progress.report(0.0, "listening on port " + std::to_string(s.options.port));
     while (true) {
       s.reap();
       const std::size_t count = s.store.count();
@@ -194,8 +219,9 @@ void Receiver::run(const Progress& progress) {
       if (s.options.count && count >= *s.options.count && !last) last = now;
       if (last && (s.guests.empty() || now - *last > farewell)) break;
       if (s.options.idle_s && now - quietSince > std::chrono::seconds(*s.options.idle_s)) break;
-      if (ASC_associationWaiting(s.network, 0) != OFFalse)
-        s.letIn();
+      if (const int caller = s.door.next(std::chrono::seconds(std::min(requestWait_s, s.options.timeout_s)));
+          caller >= 0)
+        s.letIn(caller);
       else
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }

@@ -26,7 +26,8 @@ struct Received {
 };
 
 struct ReceiveOptions {
-  int port = 0;                      ///< 1 ... 65535, on all interfaces
+  int port = 0;                      ///< 1 ... 65535
+  std::string bind = "127.0.0.1";    ///< IPv4 address to listen on: this computer alone; "0.0.0.0" for every network
   std::string title = "GLISSON";     ///< ours; who calls another one is rejected
   std::vector<std::string> callers;  ///< AE titles that may call; empty: any
   std::filesystem::path folder;      ///< made where missing
@@ -39,7 +40,7 @@ struct ReceiveOptions {
 /// A C-STORE provider (and C-ECHO). Listens from construction on; nothing is received before run().
 class Receiver {
  public:
-  /// Throws BadInput (options, folder), NetworkError where the port is taken or not allowed.
+  /// Throws BadInput (options, folder), NetworkError where address or port are taken or not allowed.
   explicit Receiver(const ReceiveOptions& options);
   ~Receiver();
   Receiver(const Receiver&) = delete;

@@ -123,6 +123,8 @@ Retrieved get(const Node& node, const RetrieveOptions& o, const Target& target, 
 Retrieved move(const Node& node, const RetrieveOptions& o, const Target& target, const Progress& progress) {
   ReceiveOptions in;
   in.port = o.receivePort;
+  // The server comes to us: from this computer, or from its network.
+  if (node.host.rfind("127.", 0) != 0 && node.host != "localhost") in.bind = "0.0.0.0";
   in.title = node.callingTitle;
   in.callers = {o.sender.empty() ? node.calledTitle : o.sender};
   in.folder = o.folder;

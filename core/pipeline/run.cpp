@@ -371,8 +371,8 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
               [&](const Progress&) { writer.report(scene, r, detail::inputDigests(scene), options.palette); });
     r.json = detail::runRecord(scene, r, options.palette);
     r.files.insert(r.files.begin(), options.output / "run.json");
-    writer.text("run.json", r.json + "\n");
     writer.text("scene.json", detail::sceneSeenFrom(scene, options.output));
+    writer.text("run.json", r.json + "\n");
   } else {
     r.json = detail::runRecord(scene, r, options.palette);
   }

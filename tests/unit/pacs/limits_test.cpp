@@ -3,6 +3,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <thread>
 
@@ -106,28 +108,95 @@ TEST(Receiver, RefusesWhatIsBeyondItsLimitsAndLeavesNothingOfIt) {
   EXPECT_EQ(r.alreadyThere, 1u);
 }
 
+/// A connection of which nothing has been said yet.
+class Caller {
+ public:
+  explicit Caller(int port) : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in a{};
+    a.sin_family = AF_INET;
+    a.sin_port = htons(static_cast<std::uint16_t>(port));
+    a.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    connected_ = connect(socket_, reinterpret_cast<sockaddr*>(&a), sizeof(a)) == 0;
+  }
+  ~Caller() { close(socket_); }
+  Caller(const Caller&) = delete;
+  Caller& operator=(const Caller&) = delete;
+  bool connected() const { return connected_; }
+  bool say(const std::string& bytes) const {
+    return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+  }
+  /// Whether the other side has closed the connection, waiting for it that long.
+  bool isDropped(int within_s) const {
+    const timeval time{within_s, 0};
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &time, sizeof(time));
+    char byte = 0;
+    const ssize_t n = recv(socket_, &byte, 1, 0);
+    return n == 0 || (n < 0 && errno == ECONNRESET);
+  }
+
+ private:
+  int socket_;
+  bool connected_ = false;
+};
+
+TEST(Receiver, LetsOthersInWhileSomeAreSilentOrTrickle) {
+  const test::TemporaryFolder folder;
+  ReceiveOptions o;
+  o.port = freePort();
+  o.folder = folder / "in";
+  Running running(o);
+  const Caller silent(o.port), slow(o.port), foreign(o.port), endless(o.port);
+  ASSERT_TRUE(silent.connected() && slow.connected() && foreign.connected() && endless.connected());
+  ASSERT_TRUE(slow.say(std::string("\1\0\0\0\x40\0", 6)));
+  ASSERT_TRUE(foreign.say("GET / HTTP/1.0\r\n\r\n"));
+  ASSERT_TRUE(endless.say(std::string("\1\0\xff\xff\xff\xff", 6)));
+  std::jthread trickle([&slow](const std::stop_token& stop) {
+    while (!stop.stop_requested() && slow.say("x")) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  });
+  Node node;
+  node.port = o.port;
+  node.calledTitle = "GLISSON";
+  node.timeout_s = 10;
+  EXPECT_LT(echo(node), 4.0) << "the wait for a request is 5 s";
+  EXPECT_TRUE(foreign.isDropped(4)) << "what is no DICOM goes at once";
+  EXPECT_TRUE(endless.isDropped(4)) << "no request is that long";
+  EXPECT_TRUE(slow.isDropped(10)) << "the time is for the whole request";
+  EXPECT_TRUE(silent.isDropped(10));
+  EXPECT_LT(echo(node), 4.0);
+}
+
+TEST(Receiver, ListensWhereItIsTold) {
+  const test::TemporaryFolder folder;
+  ReceiveOptions o;
+  o.port = freePort();
+  o.folder = folder / "in";
+  o.bind = "127.0.0.9";
+  {
+    Running running(o);
+    EXPECT_FALSE(Caller(o.port).connected()) << "127.0.0.1 is another address";
+    Node node;
+    node.host = o.bind;
+    node.port = o.port;
+    node.calledTitle = "GLISSON";
+    EXPECT_GT(echo(node), 0.0);
+  }
+  for (const char* address : {"", "localhost", "127.0.0", "192.0.2.1"}) {
+    o.bind = address;
+    EXPECT_THROW(Receiver{o}, NetworkError) << address;
+  }
+}
+
 TEST(Receiver, StopsWhenCancelledAlthoughACallerIsSilent) {
   const test::TemporaryFolder folder;
   ReceiveOptions o;
   o.port = freePort();
   o.folder = folder / "in";
-  o.timeout_s = 1;
-  const int caller = socket(AF_INET, SOCK_STREAM, 0);
   {
     Running running(o);
-    sockaddr_in a{};
-    a.sin_family = AF_INET;
-    a.sin_port = htons(static_cast<std::uint16_t>(o.port));
-    a.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    ASSERT_EQ(connect(caller, reinterpret_cast<sockaddr*>(&a), sizeof(a)), 0);
-    Node node;
-    node.port = o.port;
-    node.calledTitle = "GLISSON";
-    node.timeout_s = 10;
-    EXPECT_GT(echo(node), 0.0) << "a silent caller holds the others up for no longer than the time-out";
+    const Caller silent(o.port);
+    ASSERT_TRUE(silent.connected());
     EXPECT_THROW(Receiver{o}, NetworkError) << "the port is taken";
   }
-  close(caller);
   EXPECT_EQ(filesIn(o.folder), 0u);
 }
 
