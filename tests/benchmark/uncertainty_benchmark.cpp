@@ -128,7 +128,7 @@ void truthOf(const pipeline::Scene& scene, pipeline::Inputs inputs, const phanto
   inputs.stiffness->noConfidence.reset();
   pipeline::Scene plain = scene;
   plain.uncertainty.reset();
-  const pipeline::RunResult t = pipeline::run(plain, {.discretisation = false}, {}, &inputs);
+  const pipeline::RunResult t = pipeline::run(plain, {.output = {}, .discretisation = false}, {}, &inputs);
   if (!t.difference) return;
   const uncertainty::Headline& h = *r.uncertainty->spread.headline;
   for (const uncertainty::LandmarkSpread& l : r.uncertainty->spread.landmarks)
@@ -184,7 +184,7 @@ int main(int argc, char** argv) {
     scene.uncertainty.emplace();
     const pipeline::Inputs inputs = pipeline::loadInputs(scene);
     const double start = seconds();
-    const pipeline::RunResult r = pipeline::run(scene, {.discretisation = false}, {}, &inputs);
+    const pipeline::RunResult r = pipeline::run(scene, {.output = {}, .discretisation = false}, {}, &inputs);
     Tally t;
     for (const pipeline::PlanStep& s : r.plan)
       if (s.step == "uncertainty") t.spread_s = s.seconds;
