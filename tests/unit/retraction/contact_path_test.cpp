@@ -33,7 +33,7 @@ TEST(ContactPath, TheCapacityHasATravelOfItsOwn) {
 }
 
 TEST(Offered, SaysWhatRefusesAndWhatToDo) {
-  Setup s;
+  retraction::Setup s;
   Retractor bar;
   bar.contact.reset();
   s.loads = {bar};
