@@ -118,9 +118,7 @@ mechanics::EquilibriumMotion OneStiffness::fromRest(const mechanics::Change& cha
   // Seen from the bar at hand: the changed one may touch earlier or later.
   const mechanics::RigidBar& own = equilibrium_->bar();
   const mechanics::RigidBar there = mechanics::moved(own, change.barShift_m, change.barTurn_rad, change.pivot_m);
-  const double zone_m = mechanics::ContactOptions{}.zone_m;
-  m.travel_m = s.travel_m - mmToM * here.travel_mm +
-               (s.bar.centre_m() - there.centre_m()).dot(there.hoist) + 0.5 * zone_m;
+  m.travel_m = s.travel_m - mmToM * here.travel_mm + (s.bar.centre_m() - there.centre_m()).dot(there.hoist);
   return m;
 }
 

@@ -90,7 +90,7 @@ TEST_P(AtEquilibrium, TheTangentSaysWhatFullSolvesOfChangedProblemsSay) {
     ASSERT_TRUE(up.found && down.found) << name;
     const NodalField full = (up.u_m - down.u_m) / (2 * step);
     EXPECT_GT(full.norm(), 1e-5) << name;
-    EXPECT_LT((first.u_m - full).norm(), (step > 4e-3 ? 0.1 : 5e-3) * full.norm()) << name;
+    EXPECT_LT((first.u_m - full).norm(), (step > 4e-3 ? 0.15 : 5e-3) * full.norm()) << name;
     const double travel = (up.travel_m - down.travel_m) / (2 * step);
     EXPECT_NEAR(first.travel_m, travel, 5e-3 * std::abs(travel) + 1e-3 * full.colwise().norm().maxCoeff()) << name;
   }

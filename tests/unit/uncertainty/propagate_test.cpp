@@ -107,7 +107,7 @@ TEST_P(Propagated, RepeatabilityIsWhatARunWithAStifferElastogramShows) {
 INSTANTIATE_TEST_SUITE_P(Kinematics, Propagated,
                          testing::Values(retraction::Kinematics::Hyperelastic, retraction::Kinematics::Linear));
 
-TEST(Propagate, IntervalsHoldTheFiguresAndDrawsInFullAreNearTheFirstOrder) {
+TEST(Propagate, IntervalsHoldTheFiguresAndWhatTheFirstOrderMissesIsTold) {
   const Scene scene;
   const Uncertainty u = propagate(scene.patient(), scene.options, 3);
   ASSERT_TRUE(u.known) << u.why;
@@ -118,7 +118,11 @@ TEST(Propagate, IntervalsHoldTheFiguresAndDrawsInFullAreNearTheFirstOrder) {
   ASSERT_EQ(u.checks.size(), 1u);
   ASSERT_TRUE(u.checks[0].found);
   EXPECT_GT(u.checks[0].change_mm, 0.1);
-  EXPECT_LT(u.checks[0].missed_mm, 0.5 * u.checks[0].change_mm);
+  // A bar that moves by 5 mm along itself leaves the first order: its end lies elsewhere on the block.
+  const bool told = std::any_of(u.diagnostics.begin(), u.diagnostics.end(), [](const Diagnostic& d) {
+    return d.code == DiagnosticCode::UncertaintyNotLinear;
+  });
+  EXPECT_EQ(told, u.checks[0].missed_mm > 0.3 * u.checks[0].change_mm);
   // The clamped block was not measured by an outline.
   EXPECT_THROW(sourceOf(u, SourceKind::Outline), std::runtime_error);
   // A force is no part of the weight here.
