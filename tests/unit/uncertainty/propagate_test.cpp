@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "base/diagnostic.h"
 #include "base/error.h"
 #include "base/parallel.h"
 
