@@ -190,14 +190,15 @@ int main(int argc, char** argv) {
       if (s.step == "uncertainty") t.spread_s = s.seconds;
     t.plain_s = seconds() - start - t.spread_s;
     const std::string who = std::to_string(number) + ", " + std::to_string(draw.shear_kPa).substr(0, 4) + " kPa";
-    std::filesystem::remove_all(folder);
     if (!r.uncertainty || !r.uncertainty->known) {
       std::cout << who << " | no interval: " << (r.uncertainty ? r.uncertainty->why : "one of the runs is no answer")
                 << "\n";
+      std::filesystem::remove_all(folder);
       continue;
     }
     drawsOf(scene, inputs, r, draws, t);
     truthOf(scene, inputs, p, r, t);
+    std::filesystem::remove_all(folder);  // the runs above look for its files, to say which they were
     print(who + ", first order misses " + std::to_string(100 * r.uncertainty->missedShare).substr(0, 4) + " %", t);
     add(all, t);
   }
