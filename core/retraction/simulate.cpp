@@ -227,18 +227,18 @@ bool doubtOfBar(const RigidContact& c, const std::string& stiffness, Result& r) 
     return true;
   };
   switch (c.outcome) {
-    case BarOutcome::Slips:
+    case mechanics::ContactOutcome::Slips:
       return failed(DiagnosticCode::RetractorSlips);
-    case BarOutcome::Folds:
+    case mechanics::ContactOutcome::Folds:
       return failed(DiagnosticCode::RetractorFolds);
-    case BarOutcome::Cuts:
+    case mechanics::ContactOutcome::Cuts:
       return failed(DiagnosticCode::RetractorCuts);
-    case BarOutcome::LoadsNotBorne:
+    case mechanics::ContactOutcome::LoadsNotBorne:
       r.doubt(DiagnosticCode::LoadsNotBorne, {{"stiffness", stiffness},
                                               {"residual", r.solver.residual},
                                               {"tolerance", r.solver.tolerance}});
       return true;
-    case BarOutcome::Reached:
+    case mechanics::ContactOutcome::Reached:
       if (const double most_N = mostBefore(c, before_mm);
           c.asked_mm > 0.0 && !c.path.empty() && c.path.back()[1] < pastLimit * most_N) {
         r.doubt(DiagnosticCode::RetractorPastLimit,
@@ -246,7 +246,7 @@ bool doubtOfBar(const RigidContact& c, const std::string& stiffness, Result& r) 
         return true;
       }
       return false;
-    case BarOutcome::Stopped:
+    case mechanics::ContactOutcome::Stopped:
       return false;
   }
   return false;
