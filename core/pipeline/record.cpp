@@ -53,6 +53,10 @@ void nameFiles(Json& j, const std::vector<std::filesystem::path>& files, render:
   }
 }
 
+const char* wordOf(Significance s) {
+  return s == Significance::Open ? "open" : s == Significance::Beyond ? "beyond" : "below";
+}
+
 Json differenceToJson(const comparison::Difference& d) {
   Json j = {{"mean_mm", d.mean_mm},
             {"p95_mm", d.p95_mm},
@@ -230,6 +234,7 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
   if (r.difference) {
     const comparison::Difference& d = *r.difference;
     j["difference"] = differenceToJson(d);
+    j["difference"]["significance"] = wordOf(significanceOf(r));
     if (!d.vessel_mm.empty())
       j["difference"]["vessels"] = {{"landmarks", d.vessel_mm.size()},
                                     {"mean_mm", d.vesselMean_mm},

@@ -142,6 +142,10 @@
 %4</translation>
         </message>
         <message>
+            <source>At the retractor it cannot be told from the 5 mm that matter clinically: use smaller cells.</source>
+            <translation>Am Retraktor nicht von den 5 mm zu unterscheiden, die klinisch zählen: kleinere Zellen nehmen.</translation>
+        </message>
+        <message>
             <source>At the retractor not below the 5 mm that matter clinically.</source>
             <translation>Am Retraktor nicht unter den 5 mm, die klinisch zählen.</translation>
         </message>
@@ -481,6 +485,14 @@
         <message>
             <source>With atlas stiffness the bar slips: that liver does not bear this force here.</source>
             <translation>Mit Lehrbuchsteifigkeit rutscht der Bügel ab: jene Leber trägt diese Kraft hier nicht.</translation>
+        </message>
+        <message>
+            <source>The bar cuts into the liver: what is shown is no answer.</source>
+            <translation>Der Bügel schneidet in die Leber: das Gezeigte ist keine Lösung.</translation>
+        </message>
+        <message>
+            <source>With atlas stiffness the bar cuts into the liver: what is shown is no answer.</source>
+            <translation>Mit Lehrbuchsteifigkeit schneidet der Bügel in die Leber: das Gezeigte ist keine Lösung.</translation>
         </message>
         <message>
             <source>; vessels: mean %1, largest %2 mm, %3 of %4 landmarks at 5 mm or more</source>
@@ -3166,6 +3178,18 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>past its largest force</source>
             <translation>jenseits der Höchstkraft</translation>
+        </message>
+        <message>
+            <source>folds the liver</source>
+            <translation>faltet die Leber</translation>
+        </message>
+        <message>
+            <source>cuts into the liver</source>
+            <translation>schneidet in die Leber</translation>
+        </message>
+        <message>
+            <source>no answer</source>
+            <translation>keine Lösung</translation>
         </message>
         <message>
             <source>bears</source>
