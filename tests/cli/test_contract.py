@@ -1,10 +1,8 @@
 """The command line as the contract has it: scenes on boxes and masks against closed forms, errors, exit codes."""
 import json
-import pathlib
-import tempfile
 import unittest
 
-from support import cli, cli_json, write_nifti, write_scene
+from support import cli, cli_json, SceneTest, write_nifti, write_scene
 
 BEAM = {"geometry": {"kind": "box", "size_mm": [50, 10, 10], "cell_mm": 1.6667},
         "material": {"youngs_kPa": 12, "poisson": 0.3},
@@ -12,15 +10,7 @@ BEAM = {"geometry": {"kind": "box", "size_mm": [50, 10, 10], "cell_mm": 1.6667},
         "outputs": [{"probe": [[50, 5, 5]]}]}
 
 
-class Contract(unittest.TestCase):
-    def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self._folder.name)
-        self.addCleanup(self._folder.cleanup)
-
-    def run_scene(self, scene, *arguments, code=0):
-        return cli_json("run", write_scene(self.folder, scene), "--output", self.folder / "out", *arguments, code=code)
-
+class Contract(SceneTest):
     def refused(self, scene, *words):
         process = cli("run", write_scene(self.folder, scene), "--output", self.folder / "out", "--quiet", code=3)
         self.assertEqual(process.stdout, "")
