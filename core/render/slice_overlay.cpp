@@ -179,7 +179,7 @@ class Composer {
         }
     });
     fillFromBeside(unknown, width, out);
-    if (state.bar) barCut(plane, *state.bar, out);
+    if (state.bar) barCut(plane, *state.bar, outlines, out);
     if (!outlines) return out;
     if (cut)
       for (const auto& [from, to] : cut->lines) line(plane, from, to, outlineWidth(plane), 0.9F, out);
@@ -189,12 +189,13 @@ class Composer {
     return out;
   }
 
-  /// The bar where the plane cuts it: even, with a bright edge, so that it is told from tissue.
-  static void barCut(const SlicePlane& plane, const anatomy::TriangleMesh& bar, std::vector<float>& out) {
+  /// The bar where the plane cuts it: even, with outlines a bright edge, so that it is told from tissue.
+  static void barCut(const SlicePlane& plane, const anatomy::TriangleMesh& bar, bool outlines, std::vector<float>& out) {
     constexpr float steel = 0.55F;
     const SurfaceCut cut = cutSurface(plane, bar);
     for (std::size_t n = 0; n < out.size(); ++n)
       if (cut.inside[n] != 0) out[n] = steel;
+    if (!outlines) return;
     for (const auto& [from, to] : cut.lines) line(plane, from, to, 1.5 * outlineWidth(plane), 1.0F, out);
   }
   static double outlineWidth(const SlicePlane& plane) {

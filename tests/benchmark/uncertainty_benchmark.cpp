@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "base/private_folder.h"
 #include "base/quantity.h"
 #include "base/random.h"
 #include "elastography/fill.h"
@@ -164,8 +165,8 @@ int main(int argc, char** argv) {
   options.cases = patients;
   options.paperCohort = true;
   options.seed = argc > 4 ? static_cast<std::uint64_t>(std::atoll(argv[4])) : 77;
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("glisson-coverage-" + std::to_string(options.seed));
+  const PrivateFolder work;
+  const std::filesystem::path folder = work.path() / "patient";
   std::cout << "patient | draws | landmarks % | at retractor % | mean % | travel % | vessels' largest % | truth: "
                "landmarks % | "
                "at retractor % | travel % | plain s | uncertainty s\n";
