@@ -53,6 +53,14 @@ void nameFiles(Json& j, const std::vector<std::filesystem::path>& files, render:
   }
 }
 
+/// The means at the retractor and at the vessels, of an estimate of errors.
+template <class Errors>
+void addPlaces(const Errors& e, Json& j) {
+  if (e.at_retractor_mm) j["at_retractor_mm"] = *e.at_retractor_mm;
+  if (e.vessels_mm) j["vessels_mm"] = *e.vessels_mm;
+  if (e.vesselsMax_mm) j["vessels_max_mm"] = *e.vesselsMax_mm;
+}
+
 const char* wordOf(Significance s) {
   return s == Significance::Open ? "open" : s == Significance::Beyond ? "beyond" : "below";
 }
@@ -219,11 +227,10 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
       j["discretisation_error"]["mean_mm"] = e.mean_mm;
       j["discretisation_error"]["p95_mm"] = e.p95_mm;
       j["discretisation_error"]["max_mm"] = e.max_mm;
-      if (e.at_retractor_mm) j["discretisation_error"]["at_retractor_mm"] = *e.at_retractor_mm;
+      addPlaces(e, j["discretisation_error"]);
       if (e.difference) {
         j["discretisation_error"]["difference"] = {{"mean_mm", e.difference->mean_mm}};
-        if (e.difference->at_retractor_mm)
-          j["discretisation_error"]["difference"]["at_retractor_mm"] = *e.difference->at_retractor_mm;
+        addPlaces(*e.difference, j["discretisation_error"]["difference"]);
       }
     }
   }

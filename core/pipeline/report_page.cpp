@@ -132,11 +132,11 @@ void trust(Page& page, const Scene& scene, const RunResult& r) {
       const auto mm = [](double v) { return number(v, 3) + " mm"; };
       const auto there = [&](const std::optional<double>& v) { return v ? mm(*v) : std::string("–"); };
       std::vector<std::vector<std::string>> rows = {
-          {"of a displacement", mm(e.mean_mm), mm(e.p95_mm), mm(e.max_mm), there(e.at_retractor_mm)}};
+          {"of a displacement", mm(e.mean_mm), mm(e.p95_mm), mm(e.max_mm), there(e.at_retractor_mm), there(e.vessels_mm)}};
       if (e.difference)
         rows.push_back({"of the difference MRE against atlas", mm(e.difference->mean_mm), "–", "–",
-                        there(e.difference->at_retractor_mm)});
-      page.table({"Discretisation error", "mean", "95 % below", "largest", "at the retractor"}, rows);
+                        there(e.difference->at_retractor_mm), there(e.difference->vessels_mm)});
+      page.table({"Discretisation error", "mean", "95 % below", "largest", "at the retractor", "vessels, mean"}, rows);
       page.paragraph("Estimated from cells of " + number(e.cell_mm) + " and " + number(e.coarse_mm) + " mm.");
     } else {
       page.paragraph(e.note);

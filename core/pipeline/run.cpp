@@ -267,7 +267,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
       std::optional<retraction::SecondAnswer> second;
       if (r.atlas && r.atlas->solver.converged()) second.emplace(atlasModel, *r.atlas);
       r.discretisation =
-          retraction::discretisationError(r.model, setup, r.primary, p, second ? &*second : nullptr);
+          retraction::discretisationError(r.model, setup, r.primary, p, second ? &*second : nullptr, r.landmarks_mm);
     });
 
   if (needs.pictures && r.primary.drawable && r.atlas && !r.atlas->drawable)

@@ -11,7 +11,9 @@
 #include "pipeline/run.h"
 #include "retraction/body.h"
 #include "retraction/discretisation.h"
+#include "study/compared.h"
 #include "study/methods.h"
+#include "study/time_schemes.h"
 #include "study/timing.h"
 #include "study/tradeoff_variants.h"
 
@@ -50,40 +52,6 @@ std::vector<Eigen::Vector3d> comparedPoints(const retraction::Model& model, std:
         if (model.youngs_kPa.at(i, j, k) > 0 && n++ % stride == 0)
           points.push_back(g.indexToLps(Eigen::Vector3d(i, j, k)));
   return points;
-}
-
-std::string cellsText(const retraction::Model& model) {
-  const Eigen::Vector3d& s = model.youngs_kPa.grid.spacing_mm;
-  std::ostringstream t;
-  t.precision(3);
-  t << model.cells << " cells of ";
-  if ((s.array() - s.x()).abs().maxCoeff() < 1e-6)
-    t << s.x() << " mm";
-  else
-    t << s.x() << "x" << s.y() << "x" << s.z() << " mm";
-  return t.str();
-}
-
-void compare(Row& row, const std::vector<Eigen::Vector3d>& u, const std::vector<Eigen::Vector3d>& reference) {
-  double largest = -1.0, sum = 0.0, moved = -1.0;
-  std::size_t n = 0;
-  row.tip_error_mm = none;
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    const double d = (u[i] - reference[i]).norm();
-    if (!std::isfinite(d)) continue;
-    largest = std::max(largest, d);
-    sum += d;
-    ++n;
-    if (reference[i].norm() > moved) {
-      moved = reference[i].norm();
-      row.tip_error_mm = d;
-    }
-  }
-  row.max_error_mm = n > 0 ? largest : none;
-  row.mean_error_mm = n > 0 ? sum / static_cast<double>(n) : none;
-  if (n < u.size())
-    row.note += (row.note.empty() ? "" : "; ") + std::to_string(u.size() - n) + " of " + std::to_string(u.size()) +
-                " points lie outside this body";
 }
 
 /// The study's state: cases by cell size, rows so far.
@@ -371,6 +339,10 @@ TradeoffStudy studyTradeoff(const pipeline::Scene& asked, const TradeoffOptions&
     // The variant's own messages would pass by faster than one can read.
     tradeoff.run(all[i], Progress([&part](double, const std::string&) { part.check(); }));
   }
+  if (scene.setup.analysis.dynamic)
+    for (Row& row : timeSchemeRows(base.model, scene.setup, points, options, study.skipped,
+                                   Progress([&progress](double, const std::string&) { progress.check(); })))
+      study.rows.push_back(std::move(row));
   if (base.primary.contact && base.placed) {
     // The scene's own bar, beside its patch: the same place on all cells.
     retraction::Setup setup = own.setup;
