@@ -625,6 +625,22 @@
     <context>
         <name>glisson::panels::MainWindow</name>
         <message>
+            <source>&amp;Language</source>
+            <translation>&amp;Sprache</translation>
+        </message>
+        <message>
+            <source>The window speaks this language from its next start on.</source>
+            <translation>Das Fenster spricht diese Sprache ab dem nächsten Start.</translation>
+        </message>
+        <message>
+            <source>Built with these libraries, under their own licences:</source>
+            <translation>Gebaut mit diesen Bibliotheken, unter deren eigenen Lizenzen:</translation>
+        </message>
+        <message>
+            <source>&lt;p&gt;By the Glisson maintainers. It reproduces, and goes on from: Barrow et al., &lt;i&gt;Patient Specific Biomechanics Are Clinically Significant In Accurate Computer Aided Surgical Image Guidance&lt;/i&gt;. Cite that paper, and Glisson with its version.&lt;/p&gt;</source>
+            <translation>&lt;p&gt;Von den Glisson-Betreuern. Es vollzieht nach, und führt weiter: Barrow et al., &lt;i&gt;Patient Specific Biomechanics Are Clinically Significant In Accurate Computer Aided Surgical Image Guidance&lt;/i&gt;. Zitieren Sie diese Arbeit, und Glisson mit seiner Version.&lt;/p&gt;</translation>
+        </message>
+        <message>
             <source>Outline the liver first: there is nothing to retract.</source>
             <translation>Erst die Leber umranden: Es gibt nichts zu heben.</translation>
         </message>
