@@ -111,6 +111,8 @@ class Contract(SceneTest):
             if "on the same cells" in row["reference"] and "steps of 8 ms" in row["resolution"]:
                 errors[row["method"]] = row["max_error_mm"]
         self.assertEqual(len(errors), 3, errors)
+        self.assertEqual([f["name"] for f in study["families"]], ["time"])
+        self.assertTrue((self.folder / "study/tradeoff-time.png").is_file())
         self.assertLess(errors["Newmark, average acceleration"], 0.5 * errors["Implicit Euler"])
         self.assertLess(errors["Generalised alpha"], 0.5 * errors["Implicit Euler"])
 
