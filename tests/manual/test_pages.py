@@ -53,6 +53,12 @@ class Pages(unittest.TestCase):
     def test_glossary_has_some_fifty_terms(self):
         self.assertGreaterEqual(len(re.findall(r"^:   ", manual.markdown("glossary.md"), re.M)), 50)
 
+    def test_the_table_of_exports_is_that_of_the_program(self):
+        told = re.findall(r"^\| `([a-z][\w-]*)` \|", manual.markdown("task-export.md"), re.M)
+        there = re.findall(r'^    \{"([\w-]+)", "', (ROOT / "core/pipeline/export.cpp").read_text(encoding="utf-8"), re.M)
+        self.assertEqual(sorted(told), sorted(there))
+        self.assertGreater(len(there), 10)
+
     @unittest.skipUnless(shutil.which("pandoc"), "pandoc is not installed")
     def test_html_is_built_and_all_links_lead_somewhere(self):
         with tempfile.TemporaryDirectory() as folder:
