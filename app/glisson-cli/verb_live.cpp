@@ -71,7 +71,7 @@ Json againstRun(const retraction::LiveLivers& livers, const std::vector<Eigen::V
   };
   if (other()) throw BadInput("the run given by --run is not of this scene: its landmarks lie elsewhere");
   const retraction::LiveAnswer at = retraction::followScene(livers, most, progress).mre;
-  if (!at.atRest || at.slips) return nullptr;
+  if (!at.atRest || at.outcome != retraction::LiveOutcome::Borne) return nullptr;
   Eigen::Matrix3Xd u_mm;
   livers.mre->displacements(u_mm);
   double sum = 0, largest = 0;
@@ -85,15 +85,25 @@ Json againstRun(const retraction::LiveLivers& livers, const std::vector<Eigen::V
 
 Json toolJson(const retraction::LiveAnswer& at) {
   const auto vector = [](const Eigen::Vector3d& v) { return Json{v.x(), v.y(), v.z()}; };
-  return {{"tool_mm", vector(at.tool_mm)}, {"force_N", vector(at.force_N)}, {"at_rest", at.atRest}, {"slips", at.slips}};
+  return {{"tool_mm", vector(at.tool_mm)},
+          {"force_N", vector(at.force_N)},
+          {"at_rest", at.atRest},
+          {"slips", at.outcome == retraction::LiveOutcome::Slips},
+          {"cuts", at.outcome == retraction::LiveOutcome::Cuts}};
 }
 
-std::string slipInWords(const retraction::LiveAnswers& last) {
-  if (!last.mre.slips && !last.atlas.slips) return {};
-  const char* who = last.mre.slips && last.atlas.slips ? "either stiffness"
-                    : last.mre.slips                   ? "the measured stiffness"
-                                                       : "the atlas stiffness";
-  return std::string("the bar slips with ") + who + ": the liver does not bear the force asked for";
+/// With which stiffness the last frame ended so; empty where with none.
+std::string whoEndedBy(const retraction::LiveAnswers& last, retraction::LiveOutcome outcome) {
+  const bool mre = last.mre.outcome == outcome, atlas = last.atlas.outcome == outcome;
+  return mre && atlas ? "either stiffness" : mre ? "the measured stiffness" : atlas ? "the atlas stiffness" : "";
+}
+
+void warnOfLast(const retraction::LiveAnswers& last, Json& warnings) {
+  if (const std::string who = whoEndedBy(last, retraction::LiveOutcome::Slips); !who.empty())
+    warnings.push_back("the bar slips with " + who + ": the liver does not bear the force asked for");
+  if (const std::string who = whoEndedBy(last, retraction::LiveOutcome::Cuts); !who.empty())
+    warnings.push_back("the bar cuts into the liver with " + who +
+                       ": its cells are drawn apart there, and this state is no answer; use a smaller force or another place");
 }
 
 Json recordOf(const live::ServerStatistics& s, const retraction::LiveLivers& livers, std::size_t landmarks,
@@ -111,10 +121,11 @@ Json recordOf(const live::ServerStatistics& s, const retraction::LiveLivers& liv
             {"latency_ms", s.latency_ms},
             {"latency_max_ms", s.latency_max_ms},
             {"slipping_frames", s.slipping},
+            {"cutting_frames", s.cutting},
             {"mre", toolJson(s.last.mre)},
             {"atlas", livers.atlas ? toolJson(s.last.atlas) : Json(nullptr)},
             {"warnings", Json::array()}};
-  if (const std::string slips = slipInWords(s.last); !slips.empty()) j["warnings"].push_back(slips);
+  warnOfLast(s.last, j["warnings"]);
   return j;
 }
 

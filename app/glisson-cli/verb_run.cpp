@@ -24,9 +24,9 @@ std::string summary(const pipeline::RunResult& r) {
     << "strain      max " << p.max_strain << ", 95 % below " << p.p95_strain << "; largest rotation "
     << p.max_rotation_deg << " deg\n";
   if (p.contact)
-    t << "bar         travels " << p.contact->travel_mm << " mm and bears " << p.contact->force_N.dot(p.contact->hoist)
+    t << "bar         " << (p.contact->answered() ? "" : "no answer; its last state: ") << "travels " << p.contact->travel_mm << " mm and bears " << p.contact->force_N.dot(p.contact->hoist)
       << " N along its hoist (resultant " << p.contact->force_N.norm() << " N) over " << p.contact->footprint_mm2
-      << " mm2 seen along it" << (p.contact->slipped ? ", then slips" : "") << "\n";
+      << " mm2 seen along it\n";
   if (p.linearTrusted)
     t << "validity    "
       << (p.kinematics == retraction::Kinematics::Linear ? "linear theory can be trusted here"
@@ -47,8 +47,20 @@ std::string summary(const pipeline::RunResult& r) {
   return t.str();
 }
 
-bool slipped(const pipeline::RunResult& r) {
-  return (r.primary.contact && r.primary.contact->slipped) || (r.atlas && r.atlas->contact && r.atlas->contact->slipped);
+/// Why a run has no answer: what its first error says.
+std::string whyOf(const pipeline::RunResult& r) {
+  for (const Diagnostic& d : r.diagnostics)
+    if (d.severity() == Severity::Error) return d.text();
+  return "the solve did not converge";
+}
+
+/// What to change where a solve without a bar in contact did not converge; that of the bar says so itself.
+std::string adviceFor(const pipeline::Scene& scene, const pipeline::RunResult& r) {
+  if (r.primary.contact) return "";
+  if (r.primary.kinematics != retraction::Kinematics::Linear) return ": lower the load, spread it or stiffen the supports";
+  return scene.setup.solver.kind == mechanics::SolverKind::Auto
+             ? ": use smaller cells, less contrast between the moduli or a smaller Poisson's ratio"
+             : ": raise \"iterations\" or use solver \"auto\"";
 }
 
 void useBackend(const Context& context) {
@@ -64,19 +76,7 @@ int runScene(const pipeline::Scene& scene, const pipeline::RunOptions& options, 
   context.print(Json::parse(r.json), summary(r));
   refuseIfStrict(context, r.diagnostics, r.warnings);
   if (r.primary.solver.converged() && (!r.atlas || r.atlas->solver.converged())) return Ok;
-  const bool ofAtlas = r.primary.solver.converged();
-  const mechanics::SolveReport& failed = ofAtlas ? r.atlas->solver : r.primary.solver;
-  std::cerr << "glisson-cli: the solve " << (ofAtlas ? "with the atlas stiffness " : "") << "did not converge ("
-            << failed.kind << ", residual " << failed.residual << "); its result is marked and not drawn: "
-            << (slipped(r) ? "the bar slips; choose another place or a smaller force"
-                : r.primary.contact
-                    ? "this load folds the body; choose another place, a smaller force or stiffer supports"
-                : r.primary.kinematics != retraction::Kinematics::Linear
-                    ? "this load folds the body; lower it, spread it or stiffen the supports"
-                : scene.setup.solver.kind == mechanics::SolverKind::Auto
-                    ? "use smaller cells, less contrast between the moduli or a smaller Poisson's ratio"
-                    : "raise \"iterations\" or use solver \"auto\"")
-            << std::endl;
+  std::cerr << "glisson-cli: " << whyOf(r) << "; the result is marked and not drawn" << adviceFor(scene, r) << std::endl;
   return NotConverged;
 }
 

@@ -17,6 +17,9 @@ int tradeoff(const std::filesystem::path& file, const study::TradeoffOptions& op
                     {"seconds", s.reference_s},
                     {"points", s.points},
                     {"largest_displacement_mm", s.largest_mm}};
+  j["families"] = Json::array();
+  for (const study::TradeoffStudy::Family& f : s.families)
+    j["families"].push_back({{"name", f.name}, {"reference", f.reference}});
   j["rows"] = toJson(s.rows);
   j["skipped"] = s.skipped;
   std::string text = s.summary() + "\n" + study::table(s.rows);
@@ -31,7 +34,13 @@ int tradeoff(const std::filesystem::path& file, const study::TradeoffOptions& op
                          " ms online for every node, " + report::number(r.build_s, 2) + " s once before, " +
                          report::number(r.max_error_mm, 3) + " mm.";
     chart.lines.push_back({.value = 1.64, .label = "1.64 mm voxel", .colour = {200, 0, 160}});
-    for (const auto& written : study::write(context.output, "tradeoff", s.rows, chart)) {
+    std::vector<std::filesystem::path> files = study::write(context.output, "tradeoff", s.rows, chart);
+    for (const study::TradeoffStudy::Family& f : s.families)
+      for (auto& written : study::writeChart(context.output, "tradeoff-" + f.name,
+                                             study::chart(s.rows, f.reference, "Error against run time",
+                                                          "Error: largest distance from " + f.reference + ".")))
+        files.push_back(std::move(written));
+    for (const auto& written : files) {
       j["files"].push_back(written.string());
       text += "written " + written.string() + "\n";
     }

@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
       QStringLiteral("Save a picture of the window as PNG (step all: into this folder) and quit."),
       QStringLiteral("file"));
   const QCommandLineOption language(QStringLiteral("language"),
-                                    QStringLiteral("en or de; otherwise that of the desktop."), QStringLiteral("code"));
+                                    QStringLiteral("en or de; otherwise the one chosen last, or that of the desktop."), QStringLiteral("code"));
   parser.addOptions({synthetic, theme, language, screenshot, step, slice, outlines, run});
   if (asksAboutTheProgram(argc, argv)) {
     const QCoreApplication withoutDisplay(argc, argv);
@@ -92,7 +92,8 @@ int main(int argc, char** argv) {
     return 2;
   }
 
-  glisson::panels::speak(parser.isSet(language) ? QLocale(parser.value(language)) : system);
+  glisson::panels::speak(parser.isSet(language) ? QLocale(parser.value(language))
+                                                : glisson::panels::preferredLanguage(system));
   glisson::panels::applyTheme(wantedTheme ? *wantedTheme : glisson::panels::preferredTheme());
   // What windows that were killed left in the cache.
   const std::jthread cleaner([folder = glisson::session::Session::cacheFolder().toStdString()] {

@@ -156,6 +156,9 @@ void noteDifferences(const retraction::Setup& setup, SofaScene& scene) {
         "SOFA's hexahedra are plain, fully integrated ones, which are too stiff in bending and as Poisson's ratio "
         "nears "
         "0.5: compare with the element H8 of this project; K.mtx holds the scene's own element");
+  if (setup.analysis.dynamic && setup.analysis.scheme != mechanics::TimeScheme::ImplicitEuler)
+    scene.notes.push_back(std::string("the scene moves by ") + mechanics::nameOf(setup.analysis.scheme) +
+                          "; the node takes implicit Euler steps, which damp the motion more");
   if (setup.kinematics == retraction::Kinematics::Hyperelastic)
     scene.notes.push_back("the scene is neo-Hookean; the node uses SOFA's corotational elements (method polar)");
 }

@@ -202,7 +202,8 @@ class Session {
     if (livers_.atlas) livers_.atlas->displacements(atlas_u_mm_);
     s.evaluate_us += 1e3 * ms(Clock::now() - start);
     s.remaining_mm = std::max({s.remaining_mm, now_.mre.remaining_mm, now_.atlas.remaining_mm});
-    if (now_.mre.slips || now_.atlas.slips) ++s.slipping;
+    if (isOut(LiveOutcome::Slips)) ++s.slipping;
+    if (isOut(LiveOutcome::Cuts)) ++s.cutting;
     s.last = now_;
   }
 
@@ -229,13 +230,24 @@ class Session {
   }
 
  private:
-  /// That a bar slips, in every frame in which it does, and once that it holds again.
+  using LiveOutcome = retraction::LiveOutcome;
+
+  bool isOut(LiveOutcome outcome) const { return now_.mre.outcome == outcome || now_.atlas.outcome == outcome; }
+  /// "slips: MRE, atlas", or nothing where no liver has that outcome.
+  std::string stateOf(LiveOutcome outcome, const char* word) const {
+    std::string livers;
+    if (now_.mre.outcome == outcome) livers = "MRE";
+    if (now_.atlas.outcome == outcome) livers += livers.empty() ? "atlas" : ", atlas";
+    return livers.empty() ? livers : std::string(word) + ": " + livers;
+  }
+  /// That a bar slips or cuts, in every frame in which it does, and once that it holds again.
   bool sendState(igtl::Socket& socket, igtl::TimeStamp::Pointer& time) {
-    const bool mre = now_.mre.slips, atlas = now_.atlas.slips;
-    if (!mre && !atlas && !slipped_) return true;
-    slipped_ = mre || atlas;
+    const std::string slips = stateOf(LiveOutcome::Slips, "slips"), cuts = stateOf(LiveOutcome::Cuts, "cuts");
+    const std::string text = slips.empty() || cuts.empty() ? slips + cuts : slips + "; " + cuts;
+    if (text.empty() && !outToldLast_) return true;
+    outToldLast_ = !text.empty();
     igtl::StringMessage::Pointer state = igtl::StringMessage::New();
-    state->SetString(mre && atlas ? "slips: MRE, atlas" : mre ? "slips: MRE" : atlas ? "slips: atlas" : "holds");
+    state->SetString(text.empty() ? "holds" : text.c_str());
     return send(socket, *state, "RetractorState", time);
   }
   bool sendPoints(igtl::Socket& socket, const char* name, const char* group, const Eigen::Matrix3Xd& u_mm,
@@ -260,7 +272,7 @@ class Session {
   std::vector<std::size_t> sent_;
   retraction::LiveTarget mre_, atlas_;
   retraction::LiveAnswers now_;
-  bool slipped_ = false;  ///< as the client was told last
+  bool outToldLast_ = false;  ///< that a bar slips or cuts
   Eigen::Matrix3Xd u_mm_, atlas_u_mm_;
 };
 

@@ -27,6 +27,7 @@ struct ServerStatistics {
   double evaluate_us = 0.0;                       ///< mean time of one answer for both stiffnesses, side by side
   double remaining_mm = 0.0;  ///< of the solver: largest estimated distance of a frame from equilibrium on these cells
   long slipping = 0;          ///< frames in which a liver did not bear the force asked for
+  long cutting = 0;           ///< frames in which a bar cut into a liver
   retraction::LiveAnswers last;
   double latency_ms = 0.0, latency_max_ms = 0.0;  ///< from a whole pose read to its answer handed to the network
 };
@@ -37,8 +38,9 @@ struct ServerStatistics {
 ///             POINT "LandmarksAtlas"      the same with the textbook stiffness (where atlas is given)
 ///             TRANSFORM "RetractorReached" where the tool is, as it was taken
 ///             STRING "RetractorState"     where a bar slips: "slips: MRE", "slips: atlas" or "slips: MRE, atlas" (the liver
-///                                         does not bear the force asked for, and the bar stays where it slipped); "holds"
-///                                         once when that is over. Frames of bars that hold carry none.
+///                                         does not bear the force asked for, and the bar stays where it slipped), or cuts
+///                                         into the liver: "cuts: MRE" and so on ("slips: MRE; cuts: atlas" for one of
+///                                         each); "holds" once when that is over. Frames of bars that hold carry none.
 ///             STRING "RetractorForce"     "x y z" in N that the tool pulls with (measured stiffness); ends a frame
 /// Until a pose arrives the scene's own drive acts, its force or its travel; a pose takes both livers to the same place of the tool. Under contact
 /// a liver that is not there yet goes on with every frame. A pose more than 100 mm from the contact's rest, or not

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "mechanics/time_stepper.h"
 
 namespace glisson::mechanics {
 namespace {
@@ -16,6 +17,7 @@ void checkOptions(const DynamicOptions& o) {
   if (!(o.rayleighAlpha_1_s >= 0.0)) refuse("Rayleigh alpha must be 0 or more", o.rayleighAlpha_1_s);
   if (!(o.rayleighBeta_s >= 0.0)) refuse("Rayleigh beta must be 0 or more", o.rayleighBeta_s);
   if (!(o.ramp_s >= 0.0)) refuse("the ramp must be 0 or more seconds", o.ramp_s);
+  if (!(o.spectralRadius >= 0.0 && o.spectralRadius <= 1.0)) refuse("the spectral radius must be 0 to 1", o.spectralRadius);
 }
 
 int severity(SolveStatus status) {
@@ -56,49 +58,19 @@ NodalField nodal(const Eigen::VectorXd& x) {
   return Eigen::Map<const NodalField>(x.data(), 3, x.size() / 3);
 }
 
-/// The motion without the system's free modes R, and their amounts; without free modes, the motion itself.
-struct Split {
-  Eigen::MatrixXd R, MR;            ///< n × modes
-  Eigen::VectorXd q, v;             ///< M-orthogonal to R
-  Eigen::VectorXd distance, speed;  ///< of the modes
-
-  Split(const DynamicSystem& system, const Eigen::VectorXd& q0, const Eigen::VectorXd& v0)
-      : R(system.freeModes()), q(q0), v(v0) {
-    MR.resize(R.rows(), R.cols());
-    Eigen::VectorXd Mr(q.size());
-    for (Eigen::Index c = 0; c < R.cols(); ++c) {
-      system.applyM(R.col(c), Mr);
-      MR.col(c) = Mr;
-    }
-    if (R.cols() == 0) return;
-    distance = MR.transpose() * q;
-    speed = MR.transpose() * v;
-    q -= R * distance;
-    v -= R * speed;
-  }
-
-  void withoutRigidForce(Eigen::VectorXd& b) const {
-    if (R.cols() > 0) b -= MR * (R.transpose() * b).eval();
-  }
-
-  void advance(DynamicState& state, Eigen::VectorXd& dv, double h, double alpha, const Eigen::VectorXd& load) {
-    if (R.cols() > 0) dv -= R * (MR.transpose() * dv).eval();
-    v += dv;
-    q += h * v;
-    state.a = dv / h;
-    state.v = v;
-    state.q = q;
-    if (R.cols() == 0) return;
-    const Eigen::VectorXd gain = (h / (1 + h * alpha)) * (R.transpose() * load - alpha * speed);
-    speed += gain;
-    distance += h * speed;
-    state.a += R * (gain / h);
-    state.v += R * speed;
-    state.q += R * distance;
-  }
-};
-
 }  // namespace
+
+const char* nameOf(TimeScheme scheme) {
+  switch (scheme) {
+    case TimeScheme::Newmark:
+      return "newmark";
+    case TimeScheme::GeneralisedAlpha:
+      return "generalised-alpha";
+    case TimeScheme::ImplicitEuler:
+      break;
+  }
+  return "implicit-euler";
+}
 
 TimeSteps timeSteps(double h_s, double end_s) {
   if (!(h_s > 0.0) || !std::isfinite(h_s)) refuse("the time step must be positive", h_s);
@@ -119,45 +91,31 @@ Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eige
   for (const Eigen::Index p : options.probes)
     if (p < 0 || p >= n) throw BadArgument("integrate: probe " + std::to_string(p) + " of " + std::to_string(n));
   const auto [steps, h] = timeSteps(options.h_s, options.end_s);
-  const double alpha = options.rayleighAlpha_1_s, beta = options.rayleighBeta_s;
-  system.prepare(1.0 + h * alpha, h * (h + beta));
-
   Trajectory out;
   out.h_s = h;
   DynamicState state{0, 0.0, q0, v0, Eigen::VectorXd::Zero(n)};
-  Eigen::VectorXd Kq(n), Kv(n), Mv(n), dv = Eigen::VectorXd::Zero(n);
   const double fNorm = f.norm();
-  Split split(system, q0, v0);
   const auto loadAt = [&](double t) { return options.ramp_s > 0.0 ? std::min(1.0, t / options.ramp_s) : 1.0; };
+  TimeStepper stepper(system, f, q0, v0, h, options, loadAt(0.0));
   const auto observe = [&](double factor) {
-    system.applyK(split.q, Kq);
-    system.applyM(split.v, Mv);
+    const TimeStepper::Seen seen = stepper.see(factor);
     out.times_s.push_back(state.t_s);
-    out.energies.push_back(
-        {0.5 * (split.v.dot(Mv) + split.speed.squaredNorm()), 0.5 * split.q.dot(Kq), -factor * f.dot(state.q)});
+    out.energies.push_back({seen.kinetic_J, seen.elastic_J, -factor * f.dot(state.q)});
     if (!options.probes.empty()) {
-      Eigen::VectorXd seen(static_cast<Eigen::Index>(options.probes.size()));
-      for (Eigen::Index i = 0; i < seen.size(); ++i) seen[i] = state.q[options.probes[static_cast<std::size_t>(i)]];
-      out.probes.push_back(std::move(seen));
+      Eigen::VectorXd at(static_cast<Eigen::Index>(options.probes.size()));
+      for (Eigen::Index i = 0; i < at.size(); ++i) at[i] = state.q[options.probes[static_cast<std::size_t>(i)]];
+      out.probes.push_back(std::move(at));
     }
     if (options.keepEvery > 0 && state.step % options.keepEvery == 0) out.kept.push_back(state);
-    out.unbalance = fNorm > 0.0 ? (factor * f - Kq).norm() / fNorm : 0.0;
+    out.unbalance = fNorm > 0.0 ? seen.unbalance_N / fNorm : 0.0;
   };
   observe(loadAt(0.0));
   while (state.step < steps) {
     progress.report(static_cast<double>(state.step) / steps, "time stepping");
-    // The load at the end of the step, as every other force in the implicit scheme.
     const double factor = loadAt((state.step + 1) * h);
-    system.applyK(split.v, Kv);
-    Eigen::VectorXd b = h * (factor * f - Kq - (h + beta) * Kv - alpha * Mv);
-    split.withoutRigidForce(b);
-    const SolveReport report = system.solve(b, dv);
+    const SolveReport report = stepper.step(loadAt(state.step * h), factor, state);
     merge(out.worst, report, out.steps == 0);
-    if (!dv.allFinite()) {
-      out.worst.status = SolveStatus::NotFinite;
-      break;
-    }
-    split.advance(state, dv, h, alpha, factor * f);
+    if (report.status == SolveStatus::NotFinite) break;
     state.t_s = ++state.step * h;
     out.steps = state.step;
     observe(factor);

@@ -10,6 +10,7 @@
 #include "mechanics/meshfree.h"
 #include "mechanics/meshfree_solve.h"
 #include "mechanics/problem.h"
+#include "mechanics/time_scheme.h"
 #include "mechanics/voxel_operator.h"
 
 namespace glisson::mechanics {
@@ -94,10 +95,12 @@ TimeSteps timeSteps(double h_s, double end_s);
 struct DynamicState {
   int step = 0;
   double t_s = 0.0;
-  Eigen::VectorXd q, v, a;  ///< m, m/s, m/s² (a: change of v over the last step / h)
+  Eigen::VectorXd q, v, a;  ///< m, m/s, m/s² (a by implicit Euler: change of v over the last step / h)
 };
 
 struct DynamicOptions {
+  TimeScheme scheme = TimeScheme::ImplicitEuler;
+  double spectralRadius = 0.8;  ///< generalised alpha: what a step leaves of the fastest motions, 0 to 1
   double h_s = 1e-3;  ///< time step at most; timeSteps has the length taken
   double end_s = 2.0;
   double rayleighAlpha_1_s = 0.0;  ///< C = α M + β K
@@ -135,13 +138,16 @@ struct Trajectory {
 };
 
 /// Implicit Euler [baraff1998large] with the complete right-hand side, C = αM + βK:
-///   (M + hC + h²K) Δv = h (f − K q − C v − h K v),  v += Δv,  q += h v.
-/// Free modes R of the system are split off, as K R = 0 lets them be: v = R a + v_e with (1 + hα) Δa = h (Rᵀf − α a),
+///   (M + hC + h²K) Δv = h (f − K q − C v − h K v),  v += Δv,  q += h v;
+/// kinetic + elastic energy + load potential never grows under a constant load.
+/// Newmark and generalised alpha: M a + C v + K q = f with a at t₊ − α_m h, the rest at t₊ − α_f h (t₊ the end of the
+/// step; both 0 by Newmark), v₊ = v + h((1−γ) a + γ a₊), q₊ = q + h v + h²((½−β) a + β a₊), γ = ½ − α_m + α_f,
+/// β = ¼(1 − α_m + α_f)²; α_m = (2ρ − 1)/(ρ + 1), α_f = ρ/(ρ + 1). The first a is that of the load and the state given.
+/// Free modes R of the system are split off, as K R = 0 lets them be: v = R s + v_e, s by the same scheme without K,
 /// and the rest v_e, q_e is kept M-orthogonal to R. So linear and angular momentum (of the reference shape) are kept to
 /// rounding whatever the solver's tolerance, and elastic forces do not lose digits to the distance travelled.
-/// Unconditionally stable: kinetic + elastic energy + load potential never grows under a constant load. First order in
-/// h. Throws BadInput for h_s ≤ 0, end_s < 0, negative damping, more than 1e9 steps; a step that does not converge is
-/// told in worst, and one with values that are not finite ends the run there.
+/// Throws BadInput for h_s ≤ 0, end_s < 0, negative damping, a spectral radius beyond 0 to 1, more than 1e9 steps; a step
+/// that does not converge is told in worst, and one with values that are not finite ends the run there.
 Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eigen::VectorXd& q0,
                      const Eigen::VectorXd& v0, const DynamicOptions& options, const Progress& progress = {});
 

@@ -59,7 +59,7 @@ void LatticeOperator<T>::project(T* y) const {
 }
 
 template <class T>
-std::vector<T> cellSlotsOf(const RowLattice& lattice, const std::vector<double>& E, double unit) {
+std::vector<T> cellSlotsOf(const RowLattice& lattice, const std::vector<double>& E, double factor) {
   std::vector<T> slots(lattice.cellSlots(), T{0});
   const int nx = lattice.cells().x();
   std::size_t r = 0;
@@ -69,7 +69,7 @@ std::vector<T> cellSlotsOf(const RowLattice& lattice, const std::vector<double>&
       const int count = std::min(row.length, nx - row.begin);
       for (int i = 0; i < count; ++i)
         slots[row.offset + static_cast<std::size_t>(i)] =
-            static_cast<T>(E[r * static_cast<std::size_t>(nx) + static_cast<std::size_t>(row.begin + i)] / unit);
+            static_cast<T>(factor * E[r * static_cast<std::size_t>(nx) + static_cast<std::size_t>(row.begin + i)]);
     }
   return slots;
 }

@@ -41,8 +41,8 @@ struct LatticeOperator {
   }
 };
 
-/// Moduli of the body's cells laid out in the lattice's cell slots (padding 0), divided by `unit`.
+/// Moduli of the body's cells laid out in the lattice's cell slots (padding 0), times a factor.
 template <class T>
-std::vector<T> cellSlotsOf(const RowLattice& lattice, const std::vector<double>& E, double unit);
+std::vector<T> cellSlotsOf(const RowLattice& lattice, const std::vector<double>& E, double factor);
 
 }  // namespace glisson::mechanics

@@ -112,7 +112,7 @@ render::BarContact contactOn(const anatomy::TriangleMesh& surface, const retract
   drawn.area_mm2 = c.area_mm2;
   drawn.capacity_N = c.capacity_N;
   drawn.capacityExceeded = c.capacityExceeded;
-  drawn.slipped = c.slipped;
+  drawn.slipped = c.slipped();
   drawn.path = c.path;
   const Samples samples(c);
   drawn.u_mm.resize(3, surface.vertices_lps_mm.cols());

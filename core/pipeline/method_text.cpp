@@ -161,7 +161,7 @@ std::string modelInWords(const Scene& scene, const RunResult& r) {
          (s.capsule->form == retraction::CapsuleForm::Membrane ? "as a membrane on the surface. "
                                                                : "in the cells below the surface. ");
   if (s.analysis.dynamic)
-    t += "Implicit Euler with steps of " + number(s.analysis.h_ms) + " ms to " + number(s.analysis.end_s) +
+    t += std::string("Time scheme ") + mechanics::nameOf(s.analysis.scheme) + " with steps of " + number(s.analysis.h_ms) + " ms to " + number(s.analysis.end_s) +
          " s, Rayleigh damping " + number(s.analysis.rayleigh[0]) + " 1/s and " + number(s.analysis.rayleigh[1]) +
          " s (" + std::to_string(r.primary.steps) + " steps taken). ";
   else

@@ -275,7 +275,7 @@ std::vector<PlanStep> plan(const Scene& s) {
                     : "the analysis is static");
   add("solve", !n.timeSteps, n.timeSteps ? "the time steps lead to the answer" : solveInWords(s, n), solve_s, solve_MB);
   add("time-steps", n.timeSteps,
-      n.timeSteps ? "implicit Euler to " + std::to_string(s.setup.analysis.end_s) + " s"
+      n.timeSteps ? mechanics::nameOf(s.setup.analysis.scheme) + (" to " + std::to_string(s.setup.analysis.end_s)) + " s"
                   : "only the steady state is asked for",
       solve_s * s.setup.analysis.end_s * 1e3 / s.setup.analysis.h_ms, solve_MB);
   const bool automatic = s.setup.kinematics == retraction::Kinematics::Auto;

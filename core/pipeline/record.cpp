@@ -53,6 +53,18 @@ void nameFiles(Json& j, const std::vector<std::filesystem::path>& files, render:
   }
 }
 
+/// The means at the retractor and at the vessels, of an estimate of errors.
+template <class Errors>
+void addPlaces(const Errors& e, Json& j) {
+  if (e.at_retractor_mm) j["at_retractor_mm"] = *e.at_retractor_mm;
+  if (e.vessels_mm) j["vessels_mm"] = *e.vessels_mm;
+  if (e.vesselsMax_mm) j["vessels_max_mm"] = *e.vesselsMax_mm;
+}
+
+const char* wordOf(Significance s) {
+  return s == Significance::Open ? "open" : s == Significance::Beyond ? "beyond" : "below";
+}
+
 Json differenceToJson(const comparison::Difference& d) {
   Json j = {{"mean_mm", d.mean_mm},
             {"p95_mm", d.p95_mm},
@@ -215,11 +227,10 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
       j["discretisation_error"]["mean_mm"] = e.mean_mm;
       j["discretisation_error"]["p95_mm"] = e.p95_mm;
       j["discretisation_error"]["max_mm"] = e.max_mm;
-      if (e.at_retractor_mm) j["discretisation_error"]["at_retractor_mm"] = *e.at_retractor_mm;
+      addPlaces(e, j["discretisation_error"]);
       if (e.difference) {
         j["discretisation_error"]["difference"] = {{"mean_mm", e.difference->mean_mm}};
-        if (e.difference->at_retractor_mm)
-          j["discretisation_error"]["difference"]["at_retractor_mm"] = *e.difference->at_retractor_mm;
+        addPlaces(*e.difference, j["discretisation_error"]["difference"]);
       }
     }
   }
@@ -230,6 +241,7 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
   if (r.difference) {
     const comparison::Difference& d = *r.difference;
     j["difference"] = differenceToJson(d);
+    j["difference"]["significance"] = wordOf(significanceOf(r));
     if (!d.vessel_mm.empty())
       j["difference"]["vessels"] = {{"landmarks", d.vessel_mm.size()},
                                     {"mean_mm", d.vesselMean_mm},

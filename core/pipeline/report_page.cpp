@@ -30,12 +30,13 @@ using Rows = std::vector<std::pair<std::string, std::string>>;
 
 /// What the bar and the liver of one stiffness do to each other.
 void barRows(const std::string& who, const retraction::RigidContact& c, Rows& rows) {
-  rows.emplace_back("Bar, " + who, "travels " + number(c.travel_mm, 3) + " mm, bears " +
+  rows.emplace_back("Bar, " + who, std::string(c.answered() ? "" : "is no answer; its last state: ") + "travels " +
+                                       number(c.travel_mm, 3) + " mm, bears " +
                                        number(c.force_N.dot(c.hoist), 3) + " N along the hoist (resultant " +
                                        number(c.force_N.norm(), 3) + " N) on " + number(c.area_mm2, 3) + " mm² (" +
                                        number(c.footprint_mm2, 3) + " mm² seen along the hoist)");
   rows.emplace_back("Largest contact pressure, " + who, number(c.pressureMax_kPa, 3) + " kPa");
-  if (c.slipped)
+  if (c.slipped())
     rows.emplace_back("Capacity, " + who, number(c.capacity_N, 3) + " N after " +
                                               number(retraction::travelAtCapacity(c), 3) + " mm: the bar slips");
   else if (c.capacityExceeded)
@@ -45,6 +46,12 @@ void barRows(const std::string& who, const retraction::RigidContact& c, Rows& ro
 /// What the scene's own stiffness is called beside the textbook's.
 std::string ownIn(const Scene& scene) {
   return scene.material.kind == MaterialSpec::Kind::Mre ? "measured" : "own";
+}
+
+const char* wordsOf(Significance s) {
+  return s == Significance::Open     ? " (cannot be told from 5 mm with these cells)"
+         : s == Significance::Beyond ? " (5 mm or more: clinically significant)"
+                                     : "";
 }
 
 void results(Page& page, const Scene& scene, const RunResult& r) {
@@ -59,8 +66,7 @@ void results(Page& page, const Scene& scene, const RunResult& r) {
     rows.emplace_back("95 % of the liver below", number(d.p95_mm) + " mm");
     rows.emplace_back("Largest", number(d.max_mm) + " mm");
     rows.emplace_back("At the retractor",
-                      number(d.at_retractor_mm) + " mm" +
-                          (d.clinically_significant ? " (5 mm or more: clinically significant)" : ""));
+                      number(d.at_retractor_mm) + " mm" + wordsOf(significanceOf(r)));
     if (r.discretisation && r.discretisation->difference && r.discretisation->difference->at_retractor_mm)
       rows.emplace_back("At the retractor, error from the size of the cells",
                         "about " + number(*r.discretisation->difference->at_retractor_mm) + " mm");
@@ -126,11 +132,11 @@ void trust(Page& page, const Scene& scene, const RunResult& r) {
       const auto mm = [](double v) { return number(v, 3) + " mm"; };
       const auto there = [&](const std::optional<double>& v) { return v ? mm(*v) : std::string("–"); };
       std::vector<std::vector<std::string>> rows = {
-          {"of a displacement", mm(e.mean_mm), mm(e.p95_mm), mm(e.max_mm), there(e.at_retractor_mm)}};
+          {"of a displacement", mm(e.mean_mm), mm(e.p95_mm), mm(e.max_mm), there(e.at_retractor_mm), there(e.vessels_mm)}};
       if (e.difference)
         rows.push_back({"of the difference MRE against atlas", mm(e.difference->mean_mm), "–", "–",
-                        there(e.difference->at_retractor_mm)});
-      page.table({"Discretisation error", "mean", "95 % below", "largest", "at the retractor"}, rows);
+                        there(e.difference->at_retractor_mm), there(e.difference->vessels_mm)});
+      page.table({"Discretisation error", "mean", "95 % below", "largest", "at the retractor", "vessels, mean"}, rows);
       page.paragraph("Estimated from cells of " + number(e.cell_mm) + " and " + number(e.coarse_mm) + " mm.");
     } else {
       page.paragraph(e.note);

@@ -45,7 +45,7 @@ Json contactToJson(const retraction::RigidContact& c) {
   return {{"travel_mm", c.travel_mm},
           {"capacity_N", c.capacityExceeded ? Json(c.capacity_N) : Json(nullptr)},
           {"capacity_travel_mm", c.capacityExceeded ? Json(retraction::travelAtCapacity(c)) : Json(nullptr)},
-          {"slipped", c.slipped},
+          {"slipped", c.slipped()},
           {"force_N", vectorToJson(c.force_N)},
           {"force_along_hoist_N", c.force_N.dot(c.hoist)},
           {"resultant_N", c.force_N.norm()},

@@ -146,7 +146,7 @@ retraction::LinearGap gapUnderBar(const retraction::Model& model, retraction::Se
   setup.kinematics = retraction::Kinematics::Hyperelastic;
   const retraction::Result large = retraction::simulate(model, setup, {}, progress);
   if (detail::isAnswer(large)) return retraction::gapBetween(model, linear, large, landmarks_mm);
-  gap.why = large.contact->slipped ? "in large deformation the bar slips" : "in large deformation there is no answer";
+  gap.why = large.contact->slipped() ? "in large deformation the bar slips" : "in large deformation there is no answer";
   return gap;
 }
 
@@ -267,7 +267,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
       std::optional<retraction::SecondAnswer> second;
       if (r.atlas && r.atlas->solver.converged()) second.emplace(atlasModel, *r.atlas);
       r.discretisation =
-          retraction::discretisationError(r.model, setup, r.primary, p, second ? &*second : nullptr);
+          retraction::discretisationError(r.model, setup, r.primary, p, second ? &*second : nullptr, r.landmarks_mm);
     });
 
   if (needs.pictures && r.primary.drawable && r.atlas && !r.atlas->drawable)
@@ -332,7 +332,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     r.uncertainty = detail::uncertaintyOf(scene, inputs, cells, setup, r.atlas ? &atlasModel : nullptr, r, p);
     r.diagnostics.add(r.uncertainty->diagnostics);
   });
-  if (const std::string doubt = detail::doubtOf(r); !doubt.empty()) r.warnings.push_back(doubt);
+  if (r.difference) detail::tellOfSignificance(r);
   if (needs.pictures) {
     steps.run("liver-surface",
               [&](const Progress&) { r.picture = detail::retractionScene(scene, inputs, cells, r, vessels); });

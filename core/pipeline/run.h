@@ -55,6 +55,12 @@ struct RunResult {
   std::string json;  ///< the run record, as in contract.md
 };
 
+/// On which side of the clinical line the difference at the retractor lies; open where the estimated error of the cells
+/// reaches over that line.
+enum class Significance { Below, Beyond, Open };
+/// result: with a difference.
+Significance significanceOf(const RunResult& result);
+
 /// Does everything the plan says. inputs: already loaded (the workstation), else read from the scene's files.
 /// Throws BadInput, SolverFailed (nothing converged), Cancelled.
 RunResult run(const Scene& scene, const RunOptions& options, const Progress& progress = {},

@@ -188,11 +188,14 @@ Json toJson(const retraction::ModelSpec& m, bool element) {
 
 Json toJson(const retraction::AnalysisSpec& a) {
   if (!a.dynamic) return {{"kind", "static"}};
-  return {{"kind", "dynamic"},
-          {"h_ms", a.h_ms},
-          {"end_s", a.end_s},
-          {"rayleigh", {a.rayleigh[0], a.rayleigh[1]}},
-          {"stop_when_steady", a.stopWhenSteady}};
+  Json j = {{"kind", "dynamic"},
+            {"h_ms", a.h_ms},
+            {"end_s", a.end_s},
+            {"rayleigh", {a.rayleigh[0], a.rayleigh[1]}},
+            {"stop_when_steady", a.stopWhenSteady}};
+  if (a.scheme != mechanics::TimeScheme::ImplicitEuler) j["scheme"] = mechanics::nameOf(a.scheme);
+  if (a.scheme == mechanics::TimeScheme::GeneralisedAlpha) j["spectral_radius"] = a.spectralRadius;
+  return j;
 }
 
 Json toJson(const uncertainty::Options& u) {

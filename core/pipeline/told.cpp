@@ -137,18 +137,18 @@ void tellOfAtlas(RunResult& r) {
 
 namespace {
 
-const char* inWords(retraction::BarOutcome outcome) {
+const char* inWords(mechanics::ContactOutcome outcome) {
   switch (outcome) {
-    case retraction::BarOutcome::Slips:
+    case mechanics::ContactOutcome::Slips:
       return "slips";
-    case retraction::BarOutcome::Folds:
+    case mechanics::ContactOutcome::Folds:
       return "folds";
-    case retraction::BarOutcome::Cuts:
+    case mechanics::ContactOutcome::Cuts:
       return "cuts";
-    case retraction::BarOutcome::LoadsNotBorne:
+    case mechanics::ContactOutcome::LoadsNotBorne:
       return "loads not borne";
-    case retraction::BarOutcome::Reached:
-    case retraction::BarOutcome::Stopped:
+    case mechanics::ContactOutcome::Reached:
+    case mechanics::ContactOutcome::Stopped:
       break;
   }
   return "not converged";
@@ -176,17 +176,12 @@ void withhold(RunResult& r) {
   }
 }
 
-std::string doubtOf(const RunResult& r) {
-  if (!r.difference || !r.discretisation || !r.discretisation->difference) return {};
-  const std::optional<double> error_mm = r.discretisation->difference->at_retractor_mm;
-  const double line_mm = defaults::clinicallySignificant.mm(), there_mm = r.difference->at_retractor_mm;
-  if (!error_mm || std::abs(there_mm - line_mm) > *error_mm) return {};
-  std::ostringstream text;
-  text.precision(3);
-  text << "the difference at the retractor, " << there_mm << " mm, is no further from " << line_mm
-       << " mm than the cells may shift it (" << *error_mm
-       << " mm): use smaller cells before saying on which side of that line it lies";
-  return text.str();
+void tellOfSignificance(RunResult& r) {
+  if (significanceOf(r) != Significance::Open) return;
+  r.diagnostics.add(DiagnosticCode::SignificanceOpen,
+                    {{"at_retractor_mm", r.difference->at_retractor_mm},
+                     {"line_mm", defaults::clinicallySignificant.mm()},
+                     {"error_mm", *r.discretisation->difference->at_retractor_mm}});
 }
 
 std::string adviceOn(const Scene& scene, const retraction::Result& r) {
@@ -211,5 +206,13 @@ std::string adviceOn(const Scene& scene, const retraction::Result& r) {
 }
 
 }  // namespace detail
+
+Significance significanceOf(const RunResult& r) {
+  if (r.discretisation && r.discretisation->difference)
+    if (const std::optional<double> error_mm = r.discretisation->difference->at_retractor_mm;
+        error_mm && std::abs(r.difference->at_retractor_mm - defaults::clinicallySignificant.mm()) <= *error_mm)
+      return Significance::Open;
+  return r.difference->clinically_significant ? Significance::Beyond : Significance::Below;
+}
 
 }  // namespace glisson::pipeline

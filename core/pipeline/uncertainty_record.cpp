@@ -52,7 +52,7 @@ Json uncertaintyToJson(const uncertainty::Uncertainty& u) {
                                          {"at_retractor_mm", c.at_retractor_mm},
                                          {"first_order_mm", c.first_order_mm}}
                                   : Json{{"found", false}});
-  j["missed_share"] = u.missedShare;
+  j["missed_share"] = u.missedShare ? Json(*u.missedShare) : Json(nullptr);
   j["fields"] = u.fields;
   j["solves"] = u.solves;
   j["iterations"] = u.iterations;
@@ -111,8 +111,9 @@ void howSure(const uncertainty::Uncertainty& u, report::Page& page) {
       rows);
   page.paragraph(
       "Intervals hold 95 %. The textbook stiffness is exact by definition: it is what one would have assumed. " +
-      std::to_string(u.checks.size()) + " draws of all sources were solved in full; the first order was " +
-      number(100 * u.missedShare, 2) + " % off them.");
+      std::to_string(u.checks.size()) + " draws of all sources were solved in full; " +
+      (u.missedShare ? "the first order was " + number(100 * *u.missedShare, 2) + " % off them."
+                     : "none of them has an answer near this one, so what the first order misses is not known."));
 }
 
 }  // namespace glisson::pipeline::detail

@@ -182,9 +182,10 @@ Picture differencePicture(const RetractionScene& scene, const MapOptions& option
   const double reach_mm = 2.0 * liver.grid.spacing_mm.maxCoeff();
   const image::DisplacementField mreField = extended(scene.u_mre_mm, liver, reach_mm);
   const image::DisplacementField atlasField = extended(scene.u_atlas_mm, liver, reach_mm);
-  const InverseMap mre(mreField, true), atlas(atlasField, true);
-  const LpsToIndex toLiver(liver.grid), toMri(grid);
-  const auto difference_mm = [&](const Eigen::Vector3d& p) { return (mre.at(p) - atlas.at(p)).norm(); };
+  const LpsToIndex toLiver(liver.grid), toMri(grid), toMre(mreField.grid), toAtlas(atlasField.grid);
+  const auto difference_mm = [&](const Eigen::Vector3d& p) {
+    return static_cast<double>((sampleLinear(mreField, toMre(p)) - sampleLinear(atlasField, toAtlas(p))).norm());
+  };
 
   double largest = 0.0;
   Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
@@ -227,7 +228,7 @@ Picture differencePicture(const RetractionScene& scene, const MapOptions& option
   char text[120];
   std::snprintf(text, sizeof text, "%g mm: clinically significant", limit);
   frame.legend.push_back({isolineColour, text, true});
-  std::snprintf(text, sizeof text, ". Largest difference in this slice: %.1f mm.", largest);
+  std::snprintf(text, sizeof text, ". Largest difference of the liver that lies here at rest: %.1f mm.", largest);
   frame.notes = {sliceNote(k, grid) + text};
   frame.caption = scene.caption.empty() ? options.caption : scene.caption;
   frame.mark = scene.mark;

@@ -1,5 +1,3 @@
-#include "render/scene3d.h"
-
 #include <vtkActor.h>
 #include <vtkLightKit.h>
 #include <vtkNew.h>
@@ -55,8 +53,8 @@ anatomy::TriangleMesh barAfter(const RetractionScene& scene, const BarContact& c
 /// One picture in the making: what every kind of it needs.
 class Picture3D {
  public:
-  Picture3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options, double pixelScale)
-      : scene_(scene), options_(options), colour_(coloursOf(options.palette)), stage_(renderer, options, pixelScale) {}
+  Picture3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options)
+      : scene_(scene), options_(options), colour_(coloursOf(options.palette)), stage_(renderer, options) {}
 
   void draw() {
     if (options_.shown == Shown3D::Answers)
@@ -231,8 +229,7 @@ void Picture3D::finish(std::vector<LegendRow> legend) {
 
 }  // namespace
 
-void populateScaled(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options,
-                    double pixelScale) {
+void populate3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options) {
   if (!renderer) throw BadArgument("populate3D needs a renderer");
   if (!(options.t >= 0.0 && options.t <= 1.0)) throw BadArgument("the fraction of the displacement must lie in [0, 1]");
   renderer->RemoveAllViewProps();
@@ -243,12 +240,8 @@ void populateScaled(vtkRenderer* renderer, const RetractionScene& scene, const S
   vtkNew<vtkLightKit> lights;
   lights->SetKeyLightIntensity(0.85);
   lights->AddLightsToRenderer(renderer);
-  Picture3D(renderer, scene, options, pixelScale).draw();
+  Picture3D(renderer, scene, options).draw();
   renderer->ResetCameraClippingRange();
-}
-
-void populate3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options) {
-  populateScaled(renderer, scene, options, 1.0);
 }
 
 }  // namespace glisson::render

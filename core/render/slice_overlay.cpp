@@ -57,8 +57,15 @@ struct State {
   image::DisplacementField u_mm;  ///< carried on beyond the liver
   InverseMap inverse;
   std::optional<anatomy::TriangleMesh> surface;  ///< of the liver in contact with a bar, moved
-  State(image::DisplacementField carriedOn, const image::ScalarVolume& liver, std::optional<anatomy::TriangleMesh> moved)
-      : u_mm(std::move(carriedOn)), inverse(u_mm, true, liver), surface(std::move(moved)) {}
+  std::optional<anatomy::TriangleMesh> bar;      ///< where it ends
+  State(image::DisplacementField carriedOn, const image::ScalarVolume& liver, const RetractionScene& scene, bool atlas)
+      : u_mm(std::move(carriedOn)), inverse(u_mm, true, liver) {
+    if (!scene.bar) return;
+    const BarContact& contact = atlas && scene.bar->atlas ? *scene.bar->atlas : scene.bar->mre;
+    if (scene.bar->surface.triangles.cols() > 0) surface = movedSurface(*scene.bar, contact, 1.0);
+    bar = barMesh(movedLine(scene.bar->centreline_lps_mm, contact.travel_mm * scene.retractorDirection.normalized()),
+                  0.5 * scene.retractorDiameter_mm);
+  }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 };
@@ -75,12 +82,6 @@ std::array<image::DisplacementField, 2> carriedOn(const RetractionScene& scene, 
   return out;
 }
 
-/// The surface of the liver on which contact was solved, as it lies at the end.
-std::optional<anatomy::TriangleMesh> inContact(const RetractionScene& scene, bool atlas) {
-  if (!scene.bar || scene.bar->surface.triangles.cols() == 0) return {};
-  return movedSurface(*scene.bar, atlas && scene.bar->atlas ? *scene.bar->atlas : scene.bar->mre, 1.0);
-}
-
 class Composer {
  public:
   explicit Composer(const RetractionScene& scene)
@@ -88,8 +89,8 @@ class Composer {
         liver_(asScalar(scene.liver)),
         window_(windowOf(scene.mri, liver_)),
         fields_(carriedOn(scene, liver_)),
-        mre_(std::move(fields_[0]), liver_, inContact(scene, false)),
-        atlas_(std::move(fields_[1]), liver_, inContact(scene, true)) {}
+        mre_(std::move(fields_[0]), liver_, scene, false),
+        atlas_(std::move(fields_[1]), liver_, scene, true) {}
 
   Picture draw(const SlicePlane& plane, const SliceOverlayOptions& options) const {
     const Palette palette = options.palette;
@@ -135,6 +136,23 @@ class Composer {
     return {low, high};
   }
 
+  /// Largest ‖u_mre − u_atlas‖ of the tissue that lies in the slice as it is drawn, with the own stiffness, mm; of one
+  /// answer the largest ‖u‖.
+  double largestSeen_mm(int k) const {
+    const image::Grid& grid = scene_.mri.grid;
+    const LpsToIndex toLiver(liver_.grid), toMre(scene_.u_mre_mm.grid), toAtlas(scene_.u_atlas_mm.grid);
+    double largest = 0.0;
+    for (int j = 0; j < grid.size.y(); ++j)
+      for (int i = 0; i < grid.size.x(); ++i) {
+        const InverseMap::Result rest = mre_.inverse.rest(grid.indexToLps(Eigen::Vector3i(i, j, k).cast<double>()));
+        if (!rest.found || sampleLinear(liver_, toLiver(rest.x_lps)) < 0.5F) continue;
+        Eigen::Vector3f d = sampleLinear(scene_.u_mre_mm, toMre(rest.x_lps));
+        if (scene_.compared) d -= sampleLinear(scene_.u_atlas_mm, toAtlas(rest.x_lps));
+        largest = std::max(largest, static_cast<double>(d.norm()));
+      }
+    return largest;
+  }
+
  private:
   /// Brightness 0..1 of one channel: windowed liver, dimmed surroundings, outline of the liver and the vessels. The liver
   /// is what lies within its surface in contact where there is one, else what the mask's cells hold.
@@ -161,6 +179,7 @@ class Composer {
         }
     });
     fillFromBeside(unknown, width, out);
+    if (state.bar) barCut(plane, *state.bar, outlines, out);
     if (!outlines) return out;
     if (cut)
       for (const auto& [from, to] : cut->lines) line(plane, from, to, outlineWidth(plane), 0.9F, out);
@@ -170,6 +189,15 @@ class Composer {
     return out;
   }
 
+  /// The bar where the plane cuts it: even, with outlines a bright edge, so that it is told from tissue.
+  static void barCut(const SlicePlane& plane, const anatomy::TriangleMesh& bar, bool outlines, std::vector<float>& out) {
+    constexpr float steel = 0.55F;
+    const SurfaceCut cut = cutSurface(plane, bar);
+    for (std::size_t n = 0; n < out.size(); ++n)
+      if (cut.inside[n] != 0) out[n] = steel;
+    if (!outlines) return;
+    for (const auto& [from, to] : cut.lines) line(plane, from, to, 1.5 * outlineWidth(plane), 1.0F, out);
+  }
   static double outlineWidth(const SlicePlane& plane) {
     return 2.0 * std::max(0.7, std::min(plane.width, plane.height) / 900.0);
   }
@@ -258,23 +286,6 @@ class Composer {
   State mre_, atlas_;
 };
 
-/// Largest ‖u_mre − u_atlas‖ over liver voxels of the slice, mm; of one answer the largest ‖u‖.
-double largestDifferenceInSlice_mm(const RetractionScene& scene, int k) {
-  const image::Grid& grid = scene.mri.grid;
-  const LpsToIndex toLiver(scene.liver.grid), toMre(scene.u_mre_mm.grid), toAtlas(scene.u_atlas_mm.grid);
-  const image::ScalarVolume liver = asScalar(scene.liver);
-  double largest = 0.0;
-  for (int j = 0; j < grid.size.y(); ++j)
-    for (int i = 0; i < grid.size.x(); ++i) {
-      const Eigen::Vector3d p = grid.indexToLps(Eigen::Vector3i(i, j, k).cast<double>());
-      if (sampleLinear(liver, toLiver(p)) < 0.5F) continue;
-      Eigen::Vector3f d = sampleLinear(scene.u_mre_mm, toMre(p));
-      if (scene.compared) d -= sampleLinear(scene.u_atlas_mm, toAtlas(p));
-      largest = std::max(largest, static_cast<double>(d.norm()));
-    }
-  return largest;
-}
-
 std::string formatted(const char* pattern, double a, double b = 0.0) {
   char text[160];
   std::snprintf(text, sizeof text, pattern, a, b);
@@ -322,11 +333,11 @@ std::vector<LegendItem> legendOf(const RetractionScene& scene, bool redBlue) {
           {both, "agree"}};
 }
 
-std::string largestInSlice(const RetractionScene& scene, int k) {
-  const double largest_mm = largestDifferenceInSlice_mm(scene, k);
-  if (!scene.compared) return formatted(". Largest displacement in this slice: %.1f mm.", largest_mm);
+std::string largestInSlice(const Composer& composer, const RetractionScene& scene, int k) {
+  const double largest_mm = composer.largestSeen_mm(k);
+  if (!scene.compared) return formatted(". Largest displacement of the liver seen here: %.1f mm.", largest_mm);
   return ". Largest " + scene.stiffness +
-         formatted("-atlas difference in this slice: %.1f mm (clinically significant: %g mm).", largest_mm,
+         formatted("-atlas difference of the liver seen here: %.1f mm (clinically significant: %g mm).", largest_mm,
                    scene.clinicallySignificant_mm);
 }
 
@@ -352,8 +363,9 @@ Picture overlayOf(const Composer& composer, const RetractionScene& scene, const 
   SliceFrame frame{.plane = plane};
   frame.legend = legendOf(scene, redBlue);
   frame.legend.push_back({colours::gridGreen, formatted("grid %g mm", options.grid_mm), true});
-  frame.notes = {formatted("Slice %.0f of %.0f", k + 1, scene.mri.grid.size.z()) + largestInSlice(scene, k),
+  frame.notes = {formatted("Slice %.0f of %.0f", k + 1, scene.mri.grid.size.z()) + largestInSlice(composer, scene, k),
                  "Surroundings of the liver are not simulated: shown at rest, dimmed."};
+  if (scene.bar) frame.notes.push_back("Even discs or bands with a bright edge: the bar where it ends, cut by the slice.");
   if (options.arrows) frame.notes.push_back("Arrows: displacement from rest in the plane of the slice, true to scale.");
   frame.caption = scene.caption;
   frame.mark = scene.mark;

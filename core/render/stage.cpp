@@ -40,14 +40,14 @@ Rgb mixed(Rgb a, Rgb b, double t) {
   return {one(a.r, b.r), one(a.g, b.g), one(a.b, b.b)};
 }
 
-Stage::Stage(vtkRenderer* renderer, const SceneOptions3D& options, double pixelScale)
+Stage::Stage(vtkRenderer* renderer, const SceneOptions3D& options)
     : renderer_(renderer),
       view_(viewpointOf(options)),
-      width_(options.width * pixelScale),
-      height_(options.height * pixelScale),
+      width_(options.width),
+      height_(options.height),
       // In a narrow picture the width decides, so that legend and caption leave room for the scene.
-      font_px_(std::clamp(std::min(1.0 * options.height, 0.75 * options.width) / 46.0, 11.0, 60.0) * pixelScale),
-      line_px_(std::max(1.0, std::min(1.0 * options.height, 0.75 * options.width) / 1100.0) * pixelScale) {}
+      font_px_(std::clamp(std::min(1.0 * options.height, 0.75 * options.width) / 46.0, 11.0, 60.0)),
+      line_px_(std::max(1.0, std::min(1.0 * options.height, 0.75 * options.width) / 1100.0)) {}
 
 void Stage::add(const vtkSmartPointer<vtkProp>& prop) {
   renderer_->AddViewProp(prop);

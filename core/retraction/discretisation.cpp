@@ -281,34 +281,58 @@ double meanOf(const std::vector<double>& values) {
   return sum;
 }
 
+/// The places looked at: cells, then the contact, then landmarks.
+struct Places {
+  std::vector<Vector3d> all;
+  std::size_t cells = 0, contact = 0;
+
+  Places(const Model& model, const Result& result, const std::vector<Vector3d>& landmarks_mm) : all(centres(model)) {
+    cells = all.size();
+    const std::vector<Vector3d> touching = contactPoints(model, result);
+    contact = touching.size();
+    all.insert(all.end(), touching.begin(), touching.end());
+    all.insert(all.end(), landmarks_mm.begin(), landmarks_mm.end());
+  }
+  std::vector<double> ofCells(const std::vector<double>& l) const { return finite(l, 0, cells); }
+  /// Means (and the largest of the landmarks) where there is something to take them of.
+  template <class Told>
+  void tell(const std::vector<double>& l, Told& told) const {
+    if (const auto there = finite(l, cells, cells + contact); !there.empty()) told.at_retractor_mm = meanOf(there);
+    if (const auto vessels = finite(l, cells + contact, l.size()); !vessels.empty()) {
+      told.vessels_mm = meanOf(vessels);
+      told.vesselsMax_mm = *std::max_element(vessels.begin(), vessels.end());
+    }
+  }
+};
+
 /// What `own` and the second answer miss apart from each other; adds a sentence to the note.
 std::optional<DiscretisationError::OfDifference> ofDifference(Missed own, const Model& model, const Setup& setup,
-                                                              const SecondAnswer& second,
-                                                              const std::vector<Vector3d>& points,
+                                                              const SecondAnswer& second, const Places& places,
                                                               const Progress& progress, std::string& note) {
   const std::string what = "; of the difference of the two stiffnesses ";
   Missed other;
   try {
     other = second.model.youngs_kPa.values == model.youngs_kPa.values
                 ? own
-                : missed(second.model, setup, second.result, points, progress);
+                : missed(second.model, setup, second.result, places.all, progress);
   } catch (const Error& why) {
     if (dynamic_cast<const Cancelled*>(&why)) throw;
     note += what + "unknown: " + why.what();
     return {};
   }
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < places.all.size(); ++i) {
     own.byModel[i] -= other.byModel[i];
     own.byCells[i] -= other.byCells[i];
   }
   const std::vector<double> all = lengths(own);
   DiscretisationError::OfDifference d;
-  d.mean_mm = meanOf(finite(all, 0, model.cells));
-  if (const auto there = finite(all, model.cells, all.size()); !there.empty()) d.at_retractor_mm = meanOf(there);
+  d.mean_mm = meanOf(places.ofCells(all));
+  places.tell(all, d);
   std::ostringstream t;
   t.precision(3);
   t << what << "about " << d.mean_mm << " mm on average";
   if (d.at_retractor_mm) t << ", " << *d.at_retractor_mm << " mm at the retractor";
+  if (d.vessels_mm) t << ", " << *d.vessels_mm << " mm at the vessels";
   note += t.str();
   return d;
 }
@@ -317,39 +341,37 @@ std::optional<DiscretisationError::OfDifference> ofDifference(Missed own, const 
 
 DiscretisationError discretisationError(const retraction::Model& model, const retraction::Setup& setup,
                                         const retraction::Result& result, const Progress& progress,
-                                        const SecondAnswer* second) {
+                                        const SecondAnswer* second, const std::vector<Vector3d>& landmarks_mm) {
   DiscretisationError e;
   e.cell_mm = model.youngs_kPa.grid.spacing_mm.maxCoeff();
   e.coarse_mm = 2.0 * e.cell_mm;
-  const std::size_t cells = model.cells;
   try {
-    std::vector<Vector3d> points = centres(model);
-    const std::vector<Vector3d> contact = contactPoints(model, result);
-    points.insert(points.end(), contact.begin(), contact.end());
+    const Places places(model, result, landmarks_mm);
     if (locks(setup, model.poisson)) {
-      e.note = lockingNote(model, setup, result, points, progress);
+      e.note = lockingNote(model, setup, result, places.all, progress);
       return e;
     }
-    const Missed own = missed(model, setup, result, points, progress.part(0.0, second ? 0.5 : 1.0));
+    const Missed own = missed(model, setup, result, places.all, progress.part(0.0, second ? 0.5 : 1.0));
     e.cell_mm = own.cell_mm;
     e.coarse_mm = own.coarse_mm;
     const std::vector<double> all = lengths(own);
-    std::vector<double> error = finite(all, 0, cells);
+    std::vector<double> error = places.ofCells(all);
     if (error.empty()) throw BadInput("no cell of one grid lies inside the other");
     e.mean_mm = meanOf(error);
     std::sort(error.begin(), error.end());
     e.max_mm = error.back();
     e.p95_mm = error[static_cast<std::size_t>(0.95 * static_cast<double>(error.size() - 1))];
-    if (const auto there = finite(all, cells, all.size()); !there.empty()) e.at_retractor_mm = meanOf(there);
+    places.tell(all, e);
     e.known = true;
     std::ostringstream t;
     t.precision(3);
     t << "discretisation error about " << e.mean_mm << " mm on average, " << e.p95_mm << " mm for 95 % of the body, "
       << e.max_mm << " mm at most";
     if (e.at_retractor_mm) t << ", " << *e.at_retractor_mm << " mm at the retractor";
+    if (e.vessels_mm) t << ", " << *e.vessels_mm << " mm at the vessels";
     t << " (cells of " << e.cell_mm << " mm against " << e.coarse_mm << " mm)";
     e.note = t.str();
-    if (second) e.difference = ofDifference(own, model, setup, *second, points, progress.part(0.5, 1.0), e.note);
+    if (second) e.difference = ofDifference(own, model, setup, *second, places, progress.part(0.5, 1.0), e.note);
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& why) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/progress.h"
 #include "retraction/simulate.h"
@@ -15,6 +16,7 @@ struct DiscretisationError {
   double p95_mm = 0.0;  ///< 95 % of the cells are below
   double mean_mm = 0.0;
   std::optional<double> at_retractor_mm;  ///< mean over the nodes of the contact, as comparison::Difference has it
+  std::optional<double> vessels_mm, vesselsMax_mm;  ///< over the landmarks: mean, largest
   double cell_mm = 0.0, coarse_mm = 0.0;  ///< largest cell edge of the result's grid and of the other
   std::string note;                       ///< in words, for reports
 
@@ -23,6 +25,7 @@ struct DiscretisationError {
   struct OfDifference {
     double mean_mm = 0.0;                   ///< over the cells
     std::optional<double> at_retractor_mm;  ///< mean over the nodes of the contact
+    std::optional<double> vessels_mm, vesselsMax_mm;  ///< over the landmarks: mean, largest
   };
   std::optional<OfDifference> difference;  ///< where there is a second answer, and its error is known
 };
@@ -57,9 +60,10 @@ retraction::Setup held(const retraction::Setup& setup, const retraction::Model& 
 /// cells is added. Costs one solve with an eighth of the cells (mesh-free: one more with all of them), twice that with
 /// a second answer. Throws Cancelled; whatever else goes wrong on the coarse grid is told in the note. second: the same
 /// is done for it, and the error of the difference told. Contact nodes that lie off the coarse body by more than half
-/// of its cells count in no mean.
+/// of its cells count in no mean, nor do landmarks (LPS) outside the body.
 DiscretisationError discretisationError(const retraction::Model& model, const retraction::Setup& setup,
                                         const retraction::Result& result, const Progress& progress = {},
-                                        const SecondAnswer* second = nullptr);
+                                        const SecondAnswer* second = nullptr,
+                                        const std::vector<Eigen::Vector3d>& landmarks_mm = {});
 
 }  // namespace glisson::retraction

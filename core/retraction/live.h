@@ -17,13 +17,20 @@ struct LiveTarget {
   std::optional<Eigen::Vector3d> force_N;
 };
 
+/// How the liver bears the tool.
+enum class LiveOutcome {
+  Borne,
+  Slips,  ///< it does not bear the force asked for
+  Cuts    ///< the bar cuts into it: the state is no answer
+};
+
 /// Where the tool is after a frame, and how far the liver is from rest.
 struct LiveAnswer {
   Eigen::Vector3d tool_mm = Eigen::Vector3d::Zero();  ///< reached, from rest, LPS
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< of the tool on the liver, LPS
   double remaining_mm = 0.0;  ///< of the solver: estimated largest distance from the equilibrium of these very cells
   bool atRest = true;                                 ///< what was asked for is reached: further frames change nothing
-  bool slips = false;                                 ///< the liver does not bear the force asked for
+  LiveOutcome outcome = LiveOutcome::Borne;
 };
 
 /// A liver that follows the tool, frame by frame.

@@ -1,5 +1,7 @@
 #include "retraction/live_contact.h"
 
+#include <algorithm>
+
 #include "retraction/rigid_contact.h"
 
 namespace glisson::retraction {
@@ -41,6 +43,8 @@ LiveAnswer ContactRetraction::follow(const LiveTarget& target) {
     along = seeker_.next(target.force_N->dot(hoist_), seen_);
   else
     seeker_.forget(seen_);
+  // A force leads the bar no deeper where it cuts; the hand may.
+  if (target.force_N && tracker_->state().cuts) along = std::min(along, seen_.along_mm);
   const Eigen::Vector3d goal_mm = across + along * hoist_;
   const mechanics::TrackedState& state = tracker_->moveTowards(axes_.transpose() * goal_mm / mmPerM);
   LiveAnswer answer;
@@ -49,9 +53,11 @@ LiveAnswer ContactRetraction::follow(const LiveTarget& target) {
   answer.remaining_mm = mmPerM * state.remaining_m;
   seen_ = {answer.tool_mm.dot(hoist_), answer.force_N.dot(hoist_), answer.remaining_mm < ForceSeeker::still_mm,
            state.atRest};
-  answer.slips = seeker_.slips();
+  answer.outcome = state.cuts          ? LiveOutcome::Cuts
+                   : seeker_.slips() ? LiveOutcome::Slips
+                                     : LiveOutcome::Borne;
   const bool arrived = (answer.tool_mm - goal_mm).norm() < 1e-3;
-  const bool meets = !target.force_N || answer.slips || seeker_.reached(seen_.force_N);
+  const bool meets = !target.force_N || answer.outcome != LiveOutcome::Borne || seeker_.reached(seen_.force_N);
   answer.atRest = state.atRest && arrived && meets;
   return answer;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "mechanics/contact/barrier.h"
 #include "retraction/detail/contact_scene.h"
 #include "retraction/ligaments.h"
 
@@ -87,24 +86,6 @@ mechanics::NodalField onModelNodes(const Body& body, const ContactScene& scene, 
 
 namespace {
 
-BarOutcome outcomeOf(mechanics::ContactOutcome outcome) {
-  switch (outcome) {
-    case mechanics::ContactOutcome::Reached:
-      return BarOutcome::Reached;
-    case mechanics::ContactOutcome::Slips:
-      return BarOutcome::Slips;
-    case mechanics::ContactOutcome::Folds:
-      return BarOutcome::Folds;
-    case mechanics::ContactOutcome::Cuts:
-      return BarOutcome::Cuts;
-    case mechanics::ContactOutcome::LoadsNotBorne:
-      return BarOutcome::LoadsNotBorne;
-    case mechanics::ContactOutcome::Stopped:
-      break;
-  }
-  return BarOutcome::Stopped;
-}
-
 RigidContact toRetraction(const Body& body, const ContactScene& scene, const mechanics::ContactSolution& s) {
   const auto vector = [&](const Eigen::Vector3d& v) { return body.vectorToLps(v); };
   const Eigen::Vector3d shift_m = scene.layers.cast<double>().cwiseProduct(body.voxels().h_m);
@@ -112,8 +93,7 @@ RigidContact toRetraction(const Body& body, const ContactScene& scene, const mec
   c.travel_mm = 1e3 * s.travel_m;
   c.capacity_N = s.capacity_N;
   c.capacityExceeded = s.capacityExceeded;
-  c.slipped = s.outcome == mechanics::ContactOutcome::Slips;
-  c.outcome = outcomeOf(s.outcome);
+  c.outcome = s.outcome;
   c.asked_N = scene.problem.force_N.value_or(0.0);
   c.asked_mm = 1e3 * scene.problem.travel_m.value_or(0.0);
   c.force_N = vector(s.force_N);
@@ -126,7 +106,7 @@ RigidContact toRetraction(const Body& body, const ContactScene& scene, const mec
   for (const Eigen::Vector3d& p : s.bar.centreline_m) c.bar_mm.push_back(body.toLps_mm(p - shift_m));
   c.barRadius_mm = 1e3 * s.bar.radius_m;
   c.moved_mm = 1e3 * (s.bar.centre_m() - scene.problem.bar->centre_m()).dot(s.bar.hoist) - barBehind_mm + c.barRadius_mm +
-               0.5e3 * mechanics::barrierWidth(mechanics::ContactOptions{}.zone_m, s.bar.radius_m);
+               1e3 * s.touch_m;
   c.hoist = vector(s.bar.hoist);
   for (const mechanics::PathStep& step : s.path) c.path.push_back({1e3 * step.travel_m, step.force_N});
   c.sample_mm = scene.sample_mm;

@@ -15,6 +15,7 @@
 #include "mechanics/contact/cell_kernel.h"
 #include "mechanics/meshfree.h"
 #include "mechanics/problem.h"
+#include "mechanics/time_scheme.h"
 
 namespace glisson::retraction {
 
@@ -122,6 +123,8 @@ struct AnalysisSpec {
   bool dynamic = false;
   double h_ms = 1.0;
   double end_s = 2.0;
+  mechanics::TimeScheme scheme = mechanics::TimeScheme::ImplicitEuler;
+  double spectralRadius = 0.8;  ///< of generalised alpha
   std::array<double, 2> rayleigh = {0.0, 0.0};  ///< alpha 1/s, beta s
   double stopWhenSteady = 1e-6;  ///< relative unbalance and motion per step at rest (mechanics::isAtRest); 0 = never
 };

@@ -52,6 +52,8 @@ mechanics::DynamicOptions dynamicOptions(const AnalysisSpec& a) {
   mechanics::DynamicOptions d;
   d.h_s = 1e-3 * a.h_ms;
   d.end_s = a.end_s;
+  d.scheme = a.scheme;
+  d.spectralRadius = a.spectralRadius;
   d.rayleighAlpha_1_s = a.rayleigh[0];
   d.rayleighBeta_s = a.rayleigh[1];
   d.stopWhenSteady = a.stopWhenSteady;
@@ -84,6 +86,9 @@ void requireOffered(const Setup& setup) {
   if (!linear && setup.condensed)
     throw BadInput("a condensed response is linear, and kinematics \"" + kinematics +
                    "\" is not: choose another solver, or linear kinematics");
+  if (setup.condensed && setup.analysis.dynamic && setup.analysis.scheme != mechanics::TimeScheme::ImplicitEuler)
+    throw BadInput(std::string("condensed motion takes implicit Euler steps, and the scene asks for \"") +
+                   mechanics::nameOf(setup.analysis.scheme) + "\": choose another solver, or leave \"scheme\" out");
   if (setup.model.kind == ModelKind::FemTet && setup.analysis.dynamic)
     throw BadInput("the model \"fem-tet\" is offered for the static analysis only: use \"fem-hex\" or \"meshfree\"");
   if (setup.model.kind != ModelKind::FemHex && setup.condensed)
@@ -227,18 +232,18 @@ bool doubtOfBar(const RigidContact& c, const std::string& stiffness, Result& r) 
     return true;
   };
   switch (c.outcome) {
-    case BarOutcome::Slips:
+    case mechanics::ContactOutcome::Slips:
       return failed(DiagnosticCode::RetractorSlips);
-    case BarOutcome::Folds:
+    case mechanics::ContactOutcome::Folds:
       return failed(DiagnosticCode::RetractorFolds);
-    case BarOutcome::Cuts:
+    case mechanics::ContactOutcome::Cuts:
       return failed(DiagnosticCode::RetractorCuts);
-    case BarOutcome::LoadsNotBorne:
+    case mechanics::ContactOutcome::LoadsNotBorne:
       r.doubt(DiagnosticCode::LoadsNotBorne, {{"stiffness", stiffness},
                                               {"residual", r.solver.residual},
                                               {"tolerance", r.solver.tolerance}});
       return true;
-    case BarOutcome::Reached:
+    case mechanics::ContactOutcome::Reached:
       if (const double most_N = mostBefore(c, before_mm);
           c.asked_mm > 0.0 && !c.path.empty() && c.path.back()[1] < pastLimit * most_N) {
         r.doubt(DiagnosticCode::RetractorPastLimit,
@@ -246,7 +251,7 @@ bool doubtOfBar(const RigidContact& c, const std::string& stiffness, Result& r) 
         return true;
       }
       return false;
-    case BarOutcome::Stopped:
+    case mechanics::ContactOutcome::Stopped:
       return false;
   }
   return false;

@@ -11,6 +11,7 @@
 #include "base/diagnostic.h"
 #include "base/progress.h"
 #include "image/volume.h"
+#include "mechanics/contact/contact_solve.h"
 #include "mechanics/problem.h"
 #include "retraction/linear_gap.h"
 #include "retraction/setup.h"
@@ -38,23 +39,12 @@ struct Model {
 /// body is not between 0.03 and 0.6 m long and checkSize is set.
 Model makeModel(image::ScalarVolume youngs_kPa, double poisson, Density density, bool checkSize);
 
-/// How a run of the rigid bar ended.
-enum class BarOutcome {
-  Reached,        ///< the force or the travel asked for
-  Slips,          ///< the liver does not bear what was asked for at this place
-  Folds,          ///< cells of the surface turn inside out; beyond the capacity nothing is known
-  Cuts,           ///< the bar cuts into the surface, whose cells it has drawn apart
-  LoadsNotBorne,  ///< no equilibrium under the other loads, before the bar moves
-  Stopped         ///< no convergence, no reason found
-};
-
 /// What the rigid bar and the liver do to each other at the end, mm, N, kPa, LPS.
 struct RigidContact {
-  BarOutcome outcome = BarOutcome::Reached;
-  double travel_mm = 0.0;             ///< of the bar from its first touch, along the hoist
+  mechanics::ContactOutcome outcome = mechanics::ContactOutcome::Reached;
+  double travel_mm = 0.0;             ///< of the bar from its first force, along the hoist
   double capacity_N = 0.0;            ///< largest force met on the way; at which travel: travelAtCapacity
   bool capacityExceeded = false;      ///< the force fell beyond it
-  bool slipped = false;               ///< what was asked for is more than the liver bears at this place
   double asked_N = 0.0;               ///< force asked for; 0 where the travel was
   double asked_mm = 0.0;              ///< travel asked for; 0 where the force was
   double moved_mm = 0.0;              ///< along the hoist, from the place given to the first touch
@@ -63,13 +53,16 @@ struct RigidContact {
   double area_mm2 = 0.0, footprint_mm2 = 0.0;  ///< of the surface that touches: as it is, and seen along the hoist
   double pressureMax_kPa = 0.0, penetrationMax_mm = 0.0;
   double smallestJ = 1.0;  ///< least volume ratio of a cell
-  std::vector<Eigen::Vector3d> bar_mm;               ///< centre line at first touch; of a hook in chords
+  std::vector<Eigen::Vector3d> bar_mm;               ///< centre line at travel 0; of a hook in chords
   double barRadius_mm = 0.0;
   Eigen::Vector3d hoist = Eigen::Vector3d::Zero();   ///< unit, LPS
   std::vector<std::array<double, 2>> path;           ///< travel mm, force N
   /// Samples of the smooth surface: place at rest, displacement, area, pressure, one entry each.
   std::vector<Eigen::Vector3d> sample_mm, sample_u_mm;
   std::vector<double> sample_mm2, pressure_kPa;
+
+  bool answered() const { return outcome == mechanics::ContactOutcome::Reached; }
+  bool slipped() const { return outcome == mechanics::ContactOutcome::Slips; }
   mechanics::NodalField cut_u_m;  ///< on the nodes of the cut cells that were solved (contactScene), grid axes
 };
 

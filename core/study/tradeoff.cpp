@@ -11,7 +11,9 @@
 #include "pipeline/run.h"
 #include "retraction/body.h"
 #include "retraction/discretisation.h"
+#include "study/compared.h"
 #include "study/methods.h"
+#include "study/time_schemes.h"
 #include "study/timing.h"
 #include "study/tradeoff_variants.h"
 
@@ -50,40 +52,6 @@ std::vector<Eigen::Vector3d> comparedPoints(const retraction::Model& model, std:
         if (model.youngs_kPa.at(i, j, k) > 0 && n++ % stride == 0)
           points.push_back(g.indexToLps(Eigen::Vector3d(i, j, k)));
   return points;
-}
-
-std::string cellsText(const retraction::Model& model) {
-  const Eigen::Vector3d& s = model.youngs_kPa.grid.spacing_mm;
-  std::ostringstream t;
-  t.precision(3);
-  t << model.cells << " cells of ";
-  if ((s.array() - s.x()).abs().maxCoeff() < 1e-6)
-    t << s.x() << " mm";
-  else
-    t << s.x() << "x" << s.y() << "x" << s.z() << " mm";
-  return t.str();
-}
-
-void compare(Row& row, const std::vector<Eigen::Vector3d>& u, const std::vector<Eigen::Vector3d>& reference) {
-  double largest = -1.0, sum = 0.0, moved = -1.0;
-  std::size_t n = 0;
-  row.tip_error_mm = none;
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    const double d = (u[i] - reference[i]).norm();
-    if (!std::isfinite(d)) continue;
-    largest = std::max(largest, d);
-    sum += d;
-    ++n;
-    if (reference[i].norm() > moved) {
-      moved = reference[i].norm();
-      row.tip_error_mm = d;
-    }
-  }
-  row.max_error_mm = n > 0 ? largest : none;
-  row.mean_error_mm = n > 0 ? sum / static_cast<double>(n) : none;
-  if (n < u.size())
-    row.note += (row.note.empty() ? "" : "; ") + std::to_string(u.size() - n) + " of " + std::to_string(u.size()) +
-                " points lie outside this body";
 }
 
 /// The study's state: cases by cell size, rows so far.
@@ -300,6 +268,33 @@ class Tradeoff {
   std::map<double, Case> cases_;
 };
 
+/// The scene's own bar, whose patch the other methods carry: the same place on all cells.
+void addBar(retraction::Setup setup, const pipeline::RunResult& base, retraction::Model fine,
+            const std::vector<Eigen::Vector3d>& points, const TradeoffOptions& options, Tradeoff& tradeoff,
+            TradeoffStudy& study, const Progress& progress) {
+  for (retraction::LoadSpec& load : setup.loads)
+    if (auto* bar = std::get_if<retraction::Retractor>(&load)) *bar = base.placed->bar;
+  fine.smooth = base.model.smooth;
+  const retraction::Result finest = retraction::simulate(fine, setup, {}, progress);
+  if (!finest.solver.converged()) {
+    study.skipped.push_back(std::string(rigidBarMethod) + ": its reference did not converge");
+    return;
+  }
+  const std::vector<Eigen::Vector3d> there = retraction::displacementAt(fine, finest, points);
+  study.families.push_back({"bar", "rigid bar on " + cellsText(fine)});
+  for (const double factor : options.quick ? std::vector<double>{2, 1} : std::vector<double>{3, 2, 1.5, 1})
+    tradeoff.runBar(factor, setup, there, study.families.back().reference, progress);
+}
+
+void addTimeSchemes(const retraction::Model& model, const retraction::Setup& setup,
+                    const std::vector<Eigen::Vector3d>& points, const TradeoffOptions& options, TradeoffStudy& study,
+                    const Progress& progress) {
+  std::vector<Row> rows = timeSchemeRows(model, setup, points, options, study.skipped, progress);
+  if (rows.empty()) return;
+  study.families.push_back({"time", rows.front().reference});
+  for (Row& row : rows) study.rows.push_back(std::move(row));
+}
+
 }  // namespace
 
 std::string TradeoffStudy::summary() const {
@@ -343,7 +338,8 @@ TradeoffStudy studyTradeoff(const pipeline::Scene& asked, const TradeoffOptions&
   const retraction::Result truth = retraction::simulate(fine, best, {}, progress.part(0.1, 0.25));
   study.reference_s = watch.seconds();
   study.referenceDofs = truth.dofs;
-  study.reference = "H8-incompatible, " + cellsText(fine) + (split ? "" : " (splitting them would pass the budget)");
+  study.reference = "H8-incompatible, " + cellsText(fine) + (split ? "" : " (splitting them would pass the budget)") +
+                    (base.primary.contact ? ", the rigid bar as a patch of pressure" : "");
   if (!truth.solver.converged())
     throw SolverFailed("the reference of the scene did not converge, so nothing can be compared with it",
                        truth.solver.iterations, truth.solver.residual, best.solver.tolerance);
@@ -371,27 +367,16 @@ TradeoffStudy studyTradeoff(const pipeline::Scene& asked, const TradeoffOptions&
     // The variant's own messages would pass by faster than one can read.
     tradeoff.run(all[i], Progress([&part](double, const std::string&) { part.check(); }));
   }
-  if (base.primary.contact && base.placed) {
-    // The scene's own bar, beside its patch: the same place on all cells.
-    retraction::Setup setup = own.setup;
-    for (retraction::LoadSpec& load : setup.loads)
-      if (auto* bar = std::get_if<retraction::Retractor>(&load)) *bar = base.placed->bar;
-    progress.report(0.9, "rigid bar, reference");
-    retraction::Model fineBar = fine;
-    fineBar.smooth = base.model.smooth;
-    const retraction::Result finest = 
-        retraction::simulate(fineBar, setup, {}, Progress([&progress](double, const std::string&) { progress.check(); }));
-    if (finest.solver.converged()) {
-      const std::vector<Eigen::Vector3d> there = retraction::displacementAt(fine, finest, points);
-      for (const double factor : options.quick ? std::vector<double>{2, 1} : std::vector<double>{3, 2, 1.5, 1})
-        tradeoff.runBar(factor, setup, there, "rigid bar on " + cellsText(fine),
-                        Progress([&progress](double, const std::string&) { progress.check(); }));
-    } else {
-      study.skipped.push_back(std::string(rigidBarMethod) + ": its reference did not converge");
-    }
-  }
-  std::stable_partition(study.rows.begin(), study.rows.end(),
-                        [&](const Row& r) { return r.reference == study.reference; });
+  const Progress quiet([&progress](double, const std::string&) { progress.check(); });
+  progress.report(0.9, "what the scene adds");
+  if (base.primary.contact && base.placed) addBar(own.setup, base, fine, points, options, tradeoff, study, quiet);
+  if (scene.setup.analysis.dynamic) addTimeSchemes(base.model, scene.setup, points, options, study, quiet);
+  const auto rank = [&](const Row& r) {
+    for (const TradeoffStudy::Family& f : study.families)
+      if (f.reference == r.reference) return f.name == "bar" ? 0 : 3;
+    return r.reference == study.reference ? 1 : 2;
+  };
+  std::stable_sort(study.rows.begin(), study.rows.end(), [&](const Row& a, const Row& b) { return rank(a) < rank(b); });
   markPareto(study.rows);
   for (Row& r : study.rows)
     if (r.reference == linearTheory) r.pareto = false;  // alone with its reference

@@ -23,6 +23,12 @@ struct TradeoffStudy {
   std::size_t points = 0;            ///< places compared: cell centres of the scene's own cells
   double largest_mm = 0.0;           ///< largest displacement among them
   std::vector<std::string> skipped;  ///< variants that were not made, with the reason
+  /// Rows that are held against references of their own, in the order in which they stand: the scene's own rigid bar
+  /// ("bar", before the other rows, which have it as a patch), the time schemes of a motion ("time", behind them).
+  struct Family {
+    std::string name, reference;
+  };
+  std::vector<Family> families;
   std::string summary() const;
 };
 

@@ -15,6 +15,12 @@ using mechanics::Change;
 
 constexpr double mmToM = 1e-3;
 constexpr double tellFrom = 0.3;  ///< share missed by the first order from which a diagnostic says so
+/// Where bar or surface move, the unbalance is contact forces that nearly cancel (Equilibrium::respond).
+constexpr double contactTolerance = 1e-6;
+
+bool movesContact(const Change& c) {
+  return c.outward_m != 0 || !c.barShift_m.isZero(0) || !c.barTurn_rad.isZero(0);
+}
 
 /// All sources of one case, pushed through the tangents of its two livers.
 class Propagation {
@@ -64,8 +70,10 @@ class Propagation {
       const bool solver = c.kind == SourceKind::Solver;
       if (solver && (k + 1 == columns) != textbook && textbook_) continue;
       if (textbook && !solver && !c.textbook) continue;
+      const Change& change = textbook && c.textbook ? *c.textbook : c.measured;
       const mechanics::EquilibriumMotion m =
-          at.respond(solver ? at.left() : at.by(textbook ? *c.textbook : c.measured), options_.tolerance);
+          solver ? at.respond(at.left(), options_.tolerance)
+                 : at.respond(at.by(change), std::min(options_.tolerance, movesContact(change) ? contactTolerance : 1.0));
       ++out_.solves;
       out_.iterations += m.iterations;
       if (!m.found) {
@@ -96,13 +104,13 @@ class Propagation {
     return liver.displacements(first_.places, m);
   }
 
-  /// rms length over the landmarks, or over the cells where there are none.
-  double lengthOf(const Eigen::VectorXf& d) const {
+  /// rms length over the landmarks, or over the cells where there are none; of a gain that of what it spreads.
+  double lengthOf(const Eigen::Ref<const Eigen::MatrixXf>& d) const {
     const std::size_t landmarks = first_.places.landmark.size(), all = first_.places.count();
     const std::size_t begin = landmarks > 0 ? 0 : all - first_.places.cells,
                       count = landmarks > 0 ? landmarks : all - begin;
     if (count == 0) return 0.0;
-    const auto part = d.segment(static_cast<Index>(3 * begin), static_cast<Index>(3 * count));
+    const auto part = d.middleRows(static_cast<Index>(3 * begin), static_cast<Index>(3 * count));
     return std::sqrt(static_cast<double>(part.squaredNorm()) / static_cast<double>(count));
   }
 
@@ -135,8 +143,14 @@ class Propagation {
     }
     c.found = true;
     c.change_mm = lengthOf(*own);
-    c.missed_mm = missed.place_mm = lengthOf(missedOwn);
-    missed.difference_mm = lengthOf(missedDifference);
+    c.missed_mm = lengthOf(missedOwn);
+    const auto share = [&](double missed_mm, const Eigen::MatrixXf& gain) {
+      const double spread_mm = lengthOf(gain);
+      return spread_mm > 0 ? missed_mm / spread_mm : 0.0;
+    };
+    missed.place = share(c.missed_mm, first_.measuredGain);
+    if (textbook_)
+      missed.difference = share(lengthOf(missedDifference), first_.measuredGain - first_.textbookGain);
     return c;
   }
 
@@ -155,21 +169,21 @@ class Propagation {
       change += c.change_mm * c.change_mm;
       missed += c.missed_mm * c.missed_mm;
       for (double FurtherErrors::*e :
-           {&FurtherErrors::place_mm, &FurtherErrors::difference_mm, &FurtherErrors::at_retractor_mm,
-            &FurtherErrors::mean_mm, &FurtherErrors::travel_mm})
+           {&FurtherErrors::place, &FurtherErrors::difference, &FurtherErrors::at_retractor_mm, &FurtherErrors::mean_mm,
+            &FurtherErrors::travel_mm})
         sum.*e += one.*e * (one.*e);
     }
     if (found > 0) {
       for (double FurtherErrors::*e :
-           {&FurtherErrors::place_mm, &FurtherErrors::difference_mm, &FurtherErrors::at_retractor_mm,
-            &FurtherErrors::mean_mm, &FurtherErrors::travel_mm})
+           {&FurtherErrors::place, &FurtherErrors::difference, &FurtherErrors::at_retractor_mm, &FurtherErrors::mean_mm,
+            &FurtherErrors::travel_mm})
         sum.*e = std::sqrt(sum.*e / found);
       further.push_back(sum);
     }
-    out_.missedShare = change > 0 ? std::sqrt(missed / change) : 0.0;
-    if (out_.missedShare > tellFrom)
+    if (change > 0) out_.missedShare = std::sqrt(missed / change);
+    if (out_.missedShare && *out_.missedShare > tellFrom)
       out_.diagnostics.add(DiagnosticCode::UncertaintyNotLinear,
-                           {{"percent", 100 * out_.missedShare}, {"draws", std::int64_t{found}}});
+                           {{"percent", 100 * *out_.missedShare}, {"draws", std::int64_t{found}}});
     if (found < options_.checks)
       out_.diagnostics.add(DiagnosticCode::UncertaintyDrawWithoutAnswer,
                            {{"lost", std::int64_t{options_.checks - found}}, {"draws", std::int64_t{options_.checks}}});

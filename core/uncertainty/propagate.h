@@ -28,7 +28,7 @@ struct Uncertainty {
   Spread spread;
   std::vector<SourceWords> words;  ///< of spread.sources
   std::vector<Check> checks;
-  double missedShare = 0.0;  ///< Σ missed² over Σ change² of the checks, root
+  std::optional<double> missedShare;  ///< Σ missed² over Σ change² of the checks, root; empty where none has an answer
   int fields = 0, solves = 0, iterations = 0;
   Diagnostics diagnostics;
 };

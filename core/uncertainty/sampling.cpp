@@ -33,6 +33,13 @@ Interval middleOf(Eigen::VectorXd v) {
   return {at(0.025), at(0.975)};
 }
 
+/// Of lengths about the one at hand: the middle 95 % joined with its reflection at that. Near nothing, draws of a vector
+/// are nearly all longer than it is, though it may as well be what they are taken for.
+Interval aboutLength(Eigen::VectorXd v, double here) {
+  const Interval middle = middleOf(std::move(v));
+  return {std::max(0.0, std::min(middle.low, 2 * here - middle.high)), std::max(middle.high, 2 * here - middle.low)};
+}
+
 double shareBeyond(const Eigen::VectorXd& v) {
   return static_cast<double>((v.array() >= defaults::clinicallySignificant.mm()).count()) /
          static_cast<double>(v.size());
@@ -57,27 +64,36 @@ struct Draws {
   }
 };
 
+/// What the further errors add to the differences in every draw, mm: the same everywhere, and per mm of a place's spread.
+struct Shift {
+  Eigen::MatrixXf everywhere, ofSpread;  ///< 3 × draws
+};
+
 /// Lengths of the differences at places [begin, end) in every draw: places × draws, mm.
 class Lengths {
  public:
   explicit Lengths(const FirstOrder& first)
       : base_(first.measured - first.textbook), gain_(first.measuredGain - first.textbookGain) {}
 
-  /// shift: added to every difference, 3 × draws; or null.
-  Eigen::MatrixXf of(std::size_t begin, std::size_t end, const Eigen::MatrixXf& z, const Eigen::MatrixXf* shift) const {
+  /// shift: or null.
+  Eigen::MatrixXf of(std::size_t begin, std::size_t end, const Eigen::MatrixXf& z, const Shift* shift) const {
     const auto from = static_cast<Index>(3 * begin), rows = static_cast<Index>(3 * (end - begin));
     Eigen::MatrixXf d = gain_.middleRows(from, rows) * z;
     d.colwise() += base_.segment(from, rows);
     Eigen::MatrixXf lengths(rows / 3, z.cols());
-    for (Index s = 0; s < z.cols(); ++s)
-      for (Index p = 0; p < rows / 3; ++p) {
+    for (Index p = 0; p < rows / 3; ++p) {
+      const float spread = gain_.middleRows(from + 3 * p, 3).norm();
+      for (Index s = 0; s < z.cols(); ++s) {
         Eigen::Vector3f v = d.col(s).segment<3>(3 * p);
-        if (shift != nullptr) v += shift->col(s);
+        if (shift != nullptr) v += shift->everywhere.col(s) + spread * shift->ofSpread.col(s);
         lengths(p, s) = v.norm();
       }
+    }
     return lengths;
   }
-  const Eigen::MatrixXf& gain() const { return gain_; }
+  double atBase(std::size_t place) const {
+    return static_cast<double>(base_.segment<3>(static_cast<Index>(3 * place)).norm());
+  }
 
  private:
   Eigen::VectorXf base_;
@@ -152,12 +168,14 @@ std::vector<SourceSpread> sourcesOf(const FirstOrder& first, const Lengths* leng
   return out;
 }
 
-/// What the further errors add to every difference (3 × draws), and to a figure.
-Eigen::MatrixXf shiftOf(const std::vector<FurtherErrors>& further, const Draws& draws) {
-  Eigen::MatrixXf shift = Eigen::MatrixXf::Zero(3, draws.z.cols());
-  for (std::size_t e = 0; e < further.size(); ++e)
-    shift += (further[e].difference_mm / std::sqrt(3.0) * draws.further.middleRows(static_cast<Index>(6 * e), 3))
-                 .cast<float>();
+Shift shiftOf(const std::vector<FurtherErrors>& further, const Draws& draws) {
+  Shift shift{Eigen::MatrixXf::Zero(3, draws.z.cols()), Eigen::MatrixXf::Zero(3, draws.z.cols())};
+  for (std::size_t e = 0; e < further.size(); ++e) {
+    const Eigen::MatrixXf directions =
+        (draws.further.middleRows(static_cast<Index>(6 * e), 3) / std::sqrt(3.0)).cast<float>();
+    shift.everywhere += static_cast<float>(further[e].difference_mm) * directions;
+    shift.ofSpread += static_cast<float>(further[e].difference) * directions;
+  }
   return shift;
 }
 
@@ -172,17 +190,18 @@ Eigen::VectorXd shifted(Eigen::VectorXd figure, const std::vector<FurtherErrors>
 void addLandmarks(const FirstOrder& first, const std::vector<FurtherErrors>& further, const Lengths* lengths,
                   const Draws& draws, Spread& out) {
   const std::size_t count = first.places.landmark.size();
-  double place = 0, ofTextbook = 0;
-  for (const FurtherErrors& f : further) place += squared(f.place_mm), ofTextbook += squared(f.place_mm);
+  double place_mm2 = 0, place = 0;
+  for (const FurtherErrors& f : further) place_mm2 += squared(f.place_mm), place += squared(f.place);
+  const auto total = [&](double spread_mm) { return std::sqrt((1 + place) * squared(spread_mm) + place_mm2); };
   const Eigen::VectorXd sd = lengthsOfGain(first.measuredGain, count);
   out.landmarks.resize(count);
   for (std::size_t l = 0; l < count; ++l) {
     out.landmarks[l].landmark = first.places.landmark[l];
-    out.landmarks[l].sd_mm = std::sqrt(squared(sd[static_cast<Index>(l)]) + place);
+    out.landmarks[l].sd_mm = total(sd[static_cast<Index>(l)]);
   }
   if (lengths == nullptr) return;
   const Eigen::VectorXd other = lengthsOfGain(first.textbookGain, count);
-  const Eigen::MatrixXf shift = shiftOf(further, draws);
+  const Shift shift = shiftOf(further, draws);
   const std::size_t chunks = (count + chunk - 1) / chunk;
   Eigen::MatrixXf largest = Eigen::MatrixXf::Zero(draws.z.cols(), static_cast<Index>(std::max<std::size_t>(chunks, 1)));
   parallelChunks(count, chunk, [&](std::size_t begin, std::size_t end) {
@@ -191,13 +210,15 @@ void addLandmarks(const FirstOrder& first, const std::vector<FurtherErrors>& fur
     for (std::size_t l = begin; l < end; ++l) {
       const Eigen::VectorXd one = d.row(static_cast<Index>(l - begin)).transpose().cast<double>();
       LandmarkSpread& s = out.landmarks[l];
-      s.textbook_sd_mm = std::sqrt(squared(other[static_cast<Index>(l)]) + ofTextbook);
+      s.textbook_sd_mm = total(other[static_cast<Index>(l)]);
       s.difference_sd_mm = sdOf(one);
-      s.difference95_mm = middleOf(one);
+      s.difference95_mm = aboutLength(one, lengths->atBase(l));
       s.beyond = shareBeyond(one);
     }
   });
-  if (count > 0) out.headline->vessels_max_mm = middleOf(largest.rowwise().maxCoeff().cast<double>());
+  double here = 0;
+  for (std::size_t l = 0; l < count; ++l) here = std::max(here, lengths->atBase(l));
+  if (count > 0) out.headline->vessels_max_mm = aboutLength(largest.rowwise().maxCoeff().cast<double>(), here);
 }
 
 }  // namespace
@@ -229,10 +250,12 @@ Spread sampled(const FirstOrder& first, const std::vector<FurtherErrors>& furthe
     Headline& h = out.headline.emplace();
     const Eigen::VectorXd there =
         shifted(atRetractor(first, *lengths, draws.z), further, draws, &FurtherErrors::at_retractor_mm, 0).cwiseAbs();
-    h.at_retractor_mm = middleOf(there);
+    const Figures here = figuresOf(first.places, first.measured, first.textbook);
+    h.at_retractor_mm = aboutLength(there, here.at_retractor_mm);
     h.beyond = shareBeyond(there);
     const Eigen::MatrixXf few = draws.z.leftCols(std::min<Index>(drawsOverCells, draws.z.cols()));
-    h.mean_mm = middleOf(shifted(meanOf(first, *lengths, few), further, draws, &FurtherErrors::mean_mm, 1).cwiseAbs());
+    h.mean_mm = aboutLength(
+        shifted(meanOf(first, *lengths, few), further, draws, &FurtherErrors::mean_mm, 1).cwiseAbs(), here.mean_mm);
     const Eigen::VectorXd travel =
         ((first.travelGain - first.textbookTravelGain).transpose() * draws.z.cast<double>()).transpose().array() +
         (first.travel_mm - first.textbookTravel_mm);
@@ -240,8 +263,14 @@ Spread sampled(const FirstOrder& first, const std::vector<FurtherErrors>& furthe
   }
   addLandmarks(first, further, lengths ? &*lengths : nullptr, draws, out);
   out.sources = sourcesOf(first, lengths ? &*lengths : nullptr, draws.z);
-  for (const FurtherErrors& f : further)
-    out.sources.push_back({f.kind, lengths ? f.at_retractor_mm : f.place_mm, f.mean_mm, f.travel_mm, f.place_mm});
+  double spread_mm2 = 0;
+  const auto landmarks = static_cast<Index>(first.places.landmark.size());
+  if (landmarks > 0)
+    spread_mm2 = static_cast<double>(first.measuredGain.topRows(3 * landmarks).squaredNorm()) / static_cast<double>(landmarks);
+  for (const FurtherErrors& f : further) {
+    const double vessels_mm = std::sqrt(squared(f.place_mm) + squared(f.place) * spread_mm2);
+    out.sources.push_back({f.kind, lengths ? f.at_retractor_mm : vessels_mm, f.mean_mm, f.travel_mm, vessels_mm});
+  }
   return out;
 }
 

@@ -67,6 +67,7 @@ struct FurtherErrors {
   double place_mm = 0.0;                                         ///< length of the error of a displacement
   double difference_mm = 0.0;                                    ///< the same of a difference, at one place
   double at_retractor_mm = 0.0, mean_mm = 0.0, travel_mm = 0.0;  ///< of the figures of the difference
+  double place = 0.0, difference = 0.0;  ///< at one place, in shares of what the first order spreads there
 };
 
 /// noise: the one used, where Spreads asks for that of the map.

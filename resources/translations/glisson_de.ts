@@ -142,6 +142,10 @@
 %4</translation>
         </message>
         <message>
+            <source>At the retractor it cannot be told from the 5 mm that matter clinically: use smaller cells.</source>
+            <translation>Am Retraktor nicht von den 5 mm zu unterscheiden, die klinisch zählen: kleinere Zellen nehmen.</translation>
+        </message>
+        <message>
             <source>At the retractor not below the 5 mm that matter clinically.</source>
             <translation>Am Retraktor nicht unter den 5 mm, die klinisch zählen.</translation>
         </message>
@@ -483,6 +487,14 @@
             <translation>Mit Lehrbuchsteifigkeit rutscht der Bügel ab: jene Leber trägt diese Kraft hier nicht.</translation>
         </message>
         <message>
+            <source>The bar cuts into the liver: what is shown is no answer.</source>
+            <translation>Der Bügel schneidet in die Leber: das Gezeigte ist keine Lösung.</translation>
+        </message>
+        <message>
+            <source>With atlas stiffness the bar cuts into the liver: what is shown is no answer.</source>
+            <translation>Mit Lehrbuchsteifigkeit schneidet der Bügel in die Leber: das Gezeigte ist keine Lösung.</translation>
+        </message>
+        <message>
             <source>; vessels: mean %1, largest %2 mm, %3 of %4 landmarks at 5 mm or more</source>
             <translation>; Gefäße: Mittel %1, größter %2 mm, %3 von %4 Punkten mit 5 mm oder mehr</translation>
         </message>
@@ -612,6 +624,22 @@
     </context>
     <context>
         <name>glisson::panels::MainWindow</name>
+        <message>
+            <source>&amp;Language</source>
+            <translation>&amp;Sprache</translation>
+        </message>
+        <message>
+            <source>The window speaks this language from its next start on.</source>
+            <translation>Das Fenster spricht diese Sprache ab dem nächsten Start.</translation>
+        </message>
+        <message>
+            <source>Built with these libraries, under their own licences:</source>
+            <translation>Gebaut mit diesen Bibliotheken, unter deren eigenen Lizenzen:</translation>
+        </message>
+        <message>
+            <source>&lt;p&gt;By the Glisson maintainers. It reproduces, and goes on from: Barrow et al., &lt;i&gt;Patient Specific Biomechanics Are Clinically Significant In Accurate Computer Aided Surgical Image Guidance&lt;/i&gt;. Cite that paper, and Glisson with its version.&lt;/p&gt;</source>
+            <translation>&lt;p&gt;Von den Glisson-Betreuern. Es vollzieht nach, und führt weiter: Barrow et al., &lt;i&gt;Patient Specific Biomechanics Are Clinically Significant In Accurate Computer Aided Surgical Image Guidance&lt;/i&gt;. Zitieren Sie diese Arbeit, und Glisson mit seiner Version.&lt;/p&gt;</translation>
+        </message>
         <message>
             <source>Outline the liver first: there is nothing to retract.</source>
             <translation>Erst die Leber umranden: Es gibt nichts zu heben.</translation>
@@ -3166,6 +3194,18 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>past its largest force</source>
             <translation>jenseits der Höchstkraft</translation>
+        </message>
+        <message>
+            <source>folds the liver</source>
+            <translation>faltet die Leber</translation>
+        </message>
+        <message>
+            <source>cuts into the liver</source>
+            <translation>schneidet in die Leber</translation>
+        </message>
+        <message>
+            <source>no answer</source>
+            <translation>keine Lösung</translation>
         </message>
         <message>
             <source>bears</source>

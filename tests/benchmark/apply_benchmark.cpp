@@ -17,7 +17,7 @@ void apply(benchmark::State& state) {
   LatticeOperator<T> A;
   A.lattice = op.lattice().lattice;
   A.blocks = RowBlocks<T>(walshBlocks(op.K0()));
-  A.E = cellSlotsOf<T>(*A.lattice, p.body.E_Pa, 6e3);
+  A.E = cellSlotsOf<T>(*A.lattice, p.body.E_Pa, 1 / 6e3);
   std::vector<T> x(A.size(), T{1}), y(A.size());
   for (auto _ : state) {
     A.applyCells(x.data(), y.data());

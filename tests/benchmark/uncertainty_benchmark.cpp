@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "base/private_folder.h"
 #include "base/quantity.h"
 #include "base/random.h"
 #include "elastography/fill.h"
@@ -164,8 +165,8 @@ int main(int argc, char** argv) {
   options.cases = patients;
   options.paperCohort = true;
   options.seed = argc > 4 ? static_cast<std::uint64_t>(std::atoll(argv[4])) : 77;
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("glisson-coverage-" + std::to_string(options.seed));
+  const PrivateFolder work;
+  const std::filesystem::path folder = work.path() / "patient";
   std::cout << "patient | draws | landmarks % | at retractor % | mean % | travel % | vessels' largest % | truth: "
                "landmarks % | "
                "at retractor % | travel % | plain s | uncertainty s\n";
@@ -199,7 +200,7 @@ int main(int argc, char** argv) {
     drawsOf(scene, inputs, r, draws, t);
     truthOf(scene, inputs, p, r, t);
     std::filesystem::remove_all(folder);  // the runs above look for its files, to say which they were
-    print(who + ", first order misses " + std::to_string(100 * r.uncertainty->missedShare).substr(0, 4) + " %", t);
+    print(who + ", first order misses " + (r.uncertainty->missedShare ? std::to_string(100 * *r.uncertainty->missedShare).substr(0, 4) + " %" : "unknown"), t);
     add(all, t);
   }
   print("all", all);

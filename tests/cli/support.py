@@ -5,6 +5,8 @@ import os
 import pathlib
 import struct
 import subprocess
+import tempfile
+import unittest
 
 CLI = os.environ["GLISSON_CLI"]
 ROOT = pathlib.Path(os.environ["GLISSON_ROOT"])
@@ -28,6 +30,18 @@ def write_scene(folder, scene, name="scene.json"):
     path = pathlib.Path(folder) / name
     path.write_text(json.dumps({"schema": "glisson/scene/1", **scene}))
     return path
+
+
+class SceneTest(unittest.TestCase):
+    """Tests that run scenes in a folder of their own."""
+
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self._folder.name)
+        self.addCleanup(self._folder.cleanup)
+
+    def run_scene(self, scene, *arguments, code=0):
+        return cli_json("run", write_scene(self.folder, scene), "--output", self.folder / "out", *arguments, code=code)
 
 
 def write_nifti(path, values, size, spacing, origin_ras=(0, 0, 0), kind="f"):

@@ -1,10 +1,9 @@
 """The retractor as a rigid bar, through the command line: figures, slip, drives, and what is withheld."""
 import math
 import pathlib
-import tempfile
 import unittest
 
-from support import cli, cli_json, write_scene
+from support import cli, cli_json, SceneTest, write_scene
 
 BAR = {"kind": "retractor", "at": [80, 60, 50], "force": 4.6}
 BLOCK = {"geometry": {"kind": "box", "size_mm": [160, 60, 100], "cell_mm": 4},
@@ -19,15 +18,7 @@ SHELF = {"geometry": {"kind": "box", "size_mm": [60, 10, 40], "cell_mm": 2.5},
          "loads": [{"kind": "retractor", "at": [52, 10, 20], "axis": [0, 0, 1], "length_mm": 60, "force": 20}]}
 
 
-class Contact(unittest.TestCase):
-    def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self._folder.name)
-        self.addCleanup(self._folder.cleanup)
-
-    def run_scene(self, scene, *arguments, code=0):
-        return cli_json("run", write_scene(self.folder, scene), "--output", self.folder / "out", *arguments, code=code)
-
+class Contact(SceneTest):
     def test_a_rigid_bar_is_the_default_and_dents_a_block_as_calculix_says(self):
         r = self.run_scene(BLOCK)
         self.assertEqual(r["kinematics"]["asked"], "auto")

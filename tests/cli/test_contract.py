@@ -1,10 +1,8 @@
 """The command line as the contract has it: scenes on boxes and masks against closed forms, errors, exit codes."""
 import json
-import pathlib
-import tempfile
 import unittest
 
-from support import cli, cli_json, write_nifti, write_scene
+from support import cli, cli_json, SceneTest, write_nifti, write_scene
 
 BEAM = {"geometry": {"kind": "box", "size_mm": [50, 10, 10], "cell_mm": 1.6667},
         "material": {"youngs_kPa": 12, "poisson": 0.3},
@@ -12,15 +10,7 @@ BEAM = {"geometry": {"kind": "box", "size_mm": [50, 10, 10], "cell_mm": 1.6667},
         "outputs": [{"probe": [[50, 5, 5]]}]}
 
 
-class Contract(unittest.TestCase):
-    def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self._folder.name)
-        self.addCleanup(self._folder.cleanup)
-
-    def run_scene(self, scene, *arguments, code=0):
-        return cli_json("run", write_scene(self.folder, scene), "--output", self.folder / "out", *arguments, code=code)
-
+class Contract(SceneTest):
     def refused(self, scene, *words):
         process = cli("run", write_scene(self.folder, scene), "--output", self.folder / "out", "--quiet", code=3)
         self.assertEqual(process.stdout, "")
@@ -96,6 +86,35 @@ class Contract(unittest.TestCase):
             seen.add((row["method"], row["resolution"]))
         self.assertLessEqual({"T4", "T10", "MLS quadratic", "Condensed", "Corotational"}, {m for m, _ in seen})
         self.assertTrue((self.folder / "out/tradeoff.png").is_file())
+
+    def test_second_order_schemes_damp_nothing_and_the_trade_off_shows_it(self):
+        load = [{"kind": "body_force", "N_per_m3": [0, 0, -400]}]
+        moving = {**BEAM, "loads": load, "geometry": {**BEAM["geometry"], "cell_mm": 5}}
+
+        def tip(scheme, h_ms):
+            analysis = {"kind": "dynamic", "h_ms": h_ms, "end_s": 0.24, "stop_when_steady": 0, **scheme}
+            return self.run_scene({**moving, "analysis": analysis})["probes"][0]["u_mm"][2]
+
+        alpha = {"scheme": "generalised-alpha", "spectral_radius": 0.9}
+        truth = tip(alpha, 0.5)
+        second, euler = abs(tip({"scheme": "newmark"}, 4) - truth), abs(tip({}, 4) - truth)
+        self.assertLess(second, 0.2 * euler)
+        self.assertLess(abs(tip(alpha, 4) - truth), 0.2 * euler)
+        bad = {**moving, "analysis": {"kind": "dynamic", "scheme": "generalised-alpha", "spectral_radius": 1.5}}
+        self.refused(bad, "spectral_radius", "0 to 1")
+        condensed = {**moving, "analysis": {"kind": "dynamic", "scheme": "newmark"}, "solver": {"kind": "condensed"}}
+        self.refused(condensed, "newmark", "scheme")
+        study = cli_json("tradeoff", write_scene(self.folder, {**moving, "analysis": {
+            "kind": "dynamic", "h_ms": 8, "end_s": 0.24}}), "--quick", "--output", self.folder / "study")
+        errors = {}
+        for row in study["rows"]:
+            if "on the same cells" in row["reference"] and "steps of 8 ms" in row["resolution"]:
+                errors[row["method"]] = row["max_error_mm"]
+        self.assertEqual(len(errors), 3, errors)
+        self.assertEqual([f["name"] for f in study["families"]], ["time"])
+        self.assertTrue((self.folder / "study/tradeoff-time.png").is_file())
+        self.assertLess(errors["Newmark, average acceleration"], 0.5 * errors["Implicit Euler"])
+        self.assertLess(errors["Generalised alpha"], 0.5 * errors["Implicit Euler"])
 
     def test_dynamic_settles_at_the_static_answer(self):
         load = [{"kind": "traction", "region": {"face": "x+"}, "kPa": [0.1, 0, 0]}]

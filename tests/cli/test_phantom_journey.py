@@ -57,8 +57,13 @@ class Journey(unittest.TestCase):
         self.assertGreater(error["difference"]["at_retractor_mm"], 0)
         self.assertLess(error["difference"]["at_retractor_mm"], error["max_mm"])
         self.assertGreater(error["at_retractor_mm"], 0)
+        for told in (error, error["difference"]):
+            self.assertLessEqual(told["vessels_mm"], told["vessels_max_mm"])
+            self.assertGreater(told["vessels_mm"], 0)
+        self.assertLess(error["difference"]["vessels_mm"], error["vessels_mm"])
         open_ = abs(d["at_retractor_mm"] - 5) <= error["difference"]["at_retractor_mm"]
         self.assertEqual(any("on which side of that line" in w for w in r["warnings"]), open_)
+        self.assertEqual(d["significance"], "open" if open_ else "beyond" if d["clinically_significant"] else "below")
         page = (out / "report.html").read_text()
         self.assertIn("of the difference MRE against atlas", page)
         self.assertIn("At the retractor, error from the size of the cells", page)

@@ -5,21 +5,13 @@ import pathlib
 import tempfile
 import unittest
 
-from support import cli, cli_json, write_scene
+from support import cli, cli_json, SceneTest, write_scene
 from test_contact import BAR, BLOCK, SHELF
 
 COMPARED = {**BLOCK, "geometry": {**BLOCK["geometry"], "cell_mm": 5}, "compare": {"against": "atlas", "youngs_kPa": 9.0}}
 
 
-class Uncertainty(unittest.TestCase):
-    def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self._folder.name)
-        self.addCleanup(self._folder.cleanup)
-
-    def run_scene(self, scene, *arguments, code=0):
-        return cli_json("run", write_scene(self.folder, scene), "--output", self.folder / "out", *arguments, code=code)
-
+class Uncertainty(SceneTest):
     def test_unasked_there_is_none(self):
         r = self.run_scene(COMPARED)
         self.assertNotIn("uncertainty", r)

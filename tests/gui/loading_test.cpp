@@ -14,6 +14,7 @@
 #include <QTimer>
 
 #include "base/error.h"
+#include "panels/language.h"
 #include "panels/theme_choice.h"
 #include "phantom/phantom.h"
 #include "pipeline/inputs.h"
@@ -415,7 +416,7 @@ class Loading : public QObject, private glisson::test::WindowBench {
     }
   }
 
-  void themeAndPlaceOnTheScreenAreRemembered() {
+  void themeLanguageAndPlaceOnTheScreenAreRemembered() {
     using glisson::panels::Theme;
     QSettings().clear();
     QPalette dark = QApplication::palette();
@@ -434,6 +435,12 @@ class Loading : public QObject, private glisson::test::WindowBench {
     QCOMPARE(glisson::panels::preferredTheme(), Theme::Light);
     find<QAction>("darkTheme")->trigger();
     QCOMPARE(glisson::panels::preferredTheme(), Theme::Dark);
+
+    QCOMPARE(glisson::panels::preferredLanguage(QLocale(QStringLiteral("de_AT"))).language(), QLocale::German);
+    find<QAction>("language-en")->trigger();
+    QCOMPARE(glisson::panels::preferredLanguage(QLocale(QStringLiteral("de_AT"))).language(), QLocale::English);
+    find<QAction>("language-de")->trigger();
+    QCOMPARE(glisson::panels::preferredLanguage(QLocale::c()).language(), QLocale::German);
 
     window().rememberPlace();  // there is none yet
     window().setGeometry(40, 50, 1530, 930);

@@ -317,6 +317,18 @@ void ComparePage::drawSlice() {
       });
 }
 
+QString ComparePage::verdictOf(pipeline::Significance significance) {
+  switch (significance) {
+    case pipeline::Significance::Open:
+      return tr("At the retractor it cannot be told from the 5 mm that matter clinically: use smaller cells.");
+    case pipeline::Significance::Beyond:
+      return tr("At the retractor not below the 5 mm that matter clinically.");
+    case pipeline::Significance::Below:
+      break;
+  }
+  return tr("At the retractor below the 5 mm that matter clinically.");
+}
+
 void ComparePage::showNumbers() {
   const auto result = session_.result();
   contact_->show_();
@@ -335,10 +347,7 @@ void ComparePage::showNumbers() {
                                ? tr("± %1 by the size of the cells").arg(mm(*e->difference->at_retractor_mm))
                                : QString());
   numbers_->setText(tr("mean %1, 95th percentile %2, largest %3\n%4")
-                        .arg(mm(d.mean_mm), mm(d.p95_mm), mm(d.max_mm),
-                             d.clinically_significant
-                                 ? tr("At the retractor not below the 5 mm that matter clinically.")
-                                 : tr("At the retractor below the 5 mm that matter clinically.")));
+                        .arg(mm(d.mean_mm), mm(d.p95_mm), mm(d.max_mm), verdictOf(pipeline::significanceOf(*result))));
   vessels_->setText(d.vessel_mm.empty()
                         ? tr("No vessel landmarks were found.")
                         : tr("%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 of them at 5\u00a0mm or more")

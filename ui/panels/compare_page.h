@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipeline/run.h"
 #include "render/overlay.h"
 #include "session/export_results.h"
 #include "session/worker.h"
@@ -59,6 +60,7 @@ class ComparePage : public QWidget {
   void askWhereTo();
   QWidget* makeVesselList();
   QString trust() const;
+  static QString verdictOf(pipeline::Significance significance);
   render::Palette palette_() const;
   session::Session& session_;
   session::Worker painter_;  ///< draws slice overlays; only the latest wish counts

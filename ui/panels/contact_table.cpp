@@ -17,12 +17,24 @@ QString number(double value, int decimals, const QString& unit) {
 }
 
 QString verdict(const RigidContact& c) {
-  if (c.slipped) return ContactTable::tr("slips");
-  return c.capacityExceeded ? ContactTable::tr("past its largest force") : ContactTable::tr("bears");
+  switch (c.outcome) {
+    case mechanics::ContactOutcome::Reached:
+      return c.capacityExceeded ? ContactTable::tr("past its largest force") : ContactTable::tr("bears");
+    case mechanics::ContactOutcome::Slips:
+      return ContactTable::tr("slips");
+    case mechanics::ContactOutcome::Folds:
+      return ContactTable::tr("folds the liver");
+    case mechanics::ContactOutcome::Cuts:
+      return ContactTable::tr("cuts into the liver");
+    case mechanics::ContactOutcome::LoadsNotBorne:
+    case mechanics::ContactOutcome::Stopped:
+      break;
+  }
+  return ContactTable::tr("no answer");
 }
 
 QString capacity(const RigidContact& c) {
-  return c.slipped || c.capacityExceeded ? number(c.capacity_N, 1, QStringLiteral("N")) : ContactTable::tr("not met");
+  return c.slipped() || c.capacityExceeded ? number(c.capacity_N, 1, QStringLiteral("N")) : ContactTable::tr("not met");
 }
 
 QString nameOf(retraction::Kinematics kinematics) {

@@ -1,10 +1,29 @@
 #include "panels/language.h"
 
 #include <QCoreApplication>
-#include <QLocale>
+#include <QSettings>
 #include <QTranslator>
 
 namespace glisson::panels {
+
+namespace {
+
+const QString languageKey = QStringLiteral("language");
+
+}  // namespace
+
+QStringList languages() {
+  return {QStringLiteral("en"), QStringLiteral("de")};
+}
+
+QLocale preferredLanguage(const QLocale& otherwise) {
+  const QString code = QSettings().value(languageKey).toString();
+  return languages().contains(code) ? QLocale(code) : otherwise;
+}
+
+void rememberLanguage(const QString& code) {
+  QSettings().setValue(languageKey, code);
+}
 
 void speak(const QLocale& language) {
   for (const char* catalogue : {"qtbase", "glisson"}) {

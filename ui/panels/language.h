@@ -1,11 +1,19 @@
 #pragma once
 
-class QLocale;
+#include <QLocale>
+#include <QStringList>
 
 namespace glisson::panels {
 
 /// Texts of the program and of Qt itself (buttons of dialogs, names of keys) in this language, where there is a
 /// catalogue for it among the program's resources; else they stay English. Before the first window is made.
 void speak(const QLocale& language);
+
+/// Codes of the languages that there are texts for: "en", "de".
+QStringList languages();
+/// What was chosen last; where nothing was, `otherwise`.
+QLocale preferredLanguage(const QLocale& otherwise);
+/// From the next start on.
+void rememberLanguage(const QString& code);
 
 }  // namespace glisson::panels

@@ -222,9 +222,15 @@ QString LiveBar::numbers() const {
                 .arg(f.vesselsBeyond)
                 .arg(static_cast<qlonglong>(landmarks));
   text += QLatin1Char('.');
-  if (f.mreSlips || f.atlasSlips)
-    text += QLatin1Char(' ') + (f.mreSlips ? tr("The bar slips: the liver does not bear this force here.")
-                                           : tr("With atlas stiffness the bar slips: that liver does not bear this force here."));
+  using retraction::LiveOutcome;
+  if (f.mre == LiveOutcome::Slips)
+    text += QLatin1Char(' ') + tr("The bar slips: the liver does not bear this force here.");
+  else if (f.atlas == LiveOutcome::Slips)
+    text += QLatin1Char(' ') + tr("With atlas stiffness the bar slips: that liver does not bear this force here.");
+  if (f.mre == LiveOutcome::Cuts)
+    text += QLatin1Char(' ') + tr("The bar cuts into the liver: what is shown is no answer.");
+  else if (f.atlas == LiveOutcome::Cuts)
+    text += QLatin1Char(' ') + tr("With atlas stiffness the bar cuts into the liver: what is shown is no answer.");
   if (!contact && f.force_N.norm() > 1.5 * pair.sceneForce_N().norm())
     text += QLatin1Char(' ') + tr("Linear theory, far beyond the force of the run: shapes are not to be trusted.");
   return text;

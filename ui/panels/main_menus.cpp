@@ -2,7 +2,9 @@
 #include <QAction>
 #include <QActionGroup>
 #include <QMenuBar>
+#include <QStatusBar>
 
+#include "panels/language.h"
 #include "panels/main_window.h"
 #include "panels/segment_page.h"
 #include "panels/theme_choice.h"
@@ -68,6 +70,21 @@ void MainWindow::makeMenus() {
     action->setCheckable(true);
     action->setChecked(theme == currentTheme());
     themes->addAction(action);
+  }
+  QMenu* languageMenu = view->addMenu(tr("&Language"));
+  auto* chosen = new QActionGroup(this);
+  const QString spoken = preferredLanguage(QLocale::system()).name().left(2);
+  for (const QString& code : languages()) {
+    // Each by its own name, so that it is found whatever is spoken.
+    QAction* action = languageMenu->addAction(code == QStringLiteral("de") ? QStringLiteral("Deutsch") : QStringLiteral("English"));
+    action->setObjectName(QStringLiteral("language-") + code);
+    action->setCheckable(true);
+    action->setChecked(code == spoken);
+    chosen->addAction(action);
+    connect(action, &QAction::triggered, this, [this, code] {
+      rememberLanguage(code);
+      statusBar()->showMessage(tr("The window speaks this language from its next start on."));
+    });
   }
   view->addSeparator();
   add(view, "fitAction", tr("&Fit images"), QKeySequence(Qt::CTRL | Qt::Key_0), [this] {

@@ -86,8 +86,8 @@ void LivePair::follow(const retraction::LiveTarget& hand, LiveComparison compari
   frame.atTool_mm = (frame.toolMre_mm - frame.toolAtlas_mm).norm();
   frame.remaining_mm = std::max(now.mre.remaining_mm, now.atlas.remaining_mm);
   frame.atRest = now.mre.atRest && now.atlas.atRest && sameForce;
-  frame.mreSlips = now.mre.slips;
-  frame.atlasSlips = now.atlas.slips;
+  frame.mre = now.mre.outcome;
+  frame.atlas = now.atlas.outcome;
   compare(frame);
   frame.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

@@ -28,7 +28,7 @@ struct LiveFrame {
   int vesselsBeyond = 0;                                   ///< landmarks at or beyond what matters clinically
   double remaining_mm = 0.0;  ///< estimated largest distance of either liver from its equilibrium
   bool atRest = true;         ///< the hand's place is reached, and further frames change nothing
-  bool mreSlips = false, atlasSlips = false;
+  retraction::LiveOutcome mre = retraction::LiveOutcome::Borne, atlas = retraction::LiveOutcome::Borne;
   double seconds = 0.0;  ///< that the frame took
 };
 

@@ -1,14 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 namespace glisson::mechanics {
-
-/// Width of the barrier of a round bar, m: at most a fifth of its radius.
-inline double barrierWidth(double zone_m, double radius_m) {
-  return std::min(zone_m, 0.2 * radius_m);
-}
 
 /// Logarithmic barrier of a gap g: φ = −κ (a − w)² ln(a/w) for a = g + w/2 below w, else 0. Half of the zone of width w
 /// lies inside the body, so that the surface in contact is on average where it should be. Below a = 0.15 w its

@@ -4,9 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "base/error.h"
 #include "base/parallel.h"
 
 namespace glisson::mechanics {
@@ -16,6 +14,7 @@ constexpr std::size_t chunk = 1024;
 /// The barrier's stiffness over the body's mean modulus, 20 kPa/mm at 6 kPa: bodies that differ in scale only have the
 /// same answers at forces in proportion.
 constexpr double perModulus_1_m = 1e4 / 3;
+constexpr double widestOfRadius = 0.2;  ///< of a barrier, so that thin bars are thin
 
 double meanModulus(const VoxelBody& body) {
   double sum = 0, count = 0;
@@ -37,7 +36,7 @@ ContactEnergy::ContactEnergy(const SolidHierarchy& hierarchy, std::vector<Surfac
       tethers_(problem.tethers),
       pressures_(problem.pressures),
       law_(problem.law), bar_(problem.bar) {
-  barrier_.width_m = bar_ ? barrierWidth(options.zone_m, bar_->radius_m) : options.zone_m;
+  barrier_.width_m = bar_ ? std::min(options.zone_m, widestOfRadius * bar_->radius_m) : options.zone_m;
   barrier_.kappa_Pa_m = perModulus_1_m * meanModulus(problem.problem.body) * 1e-3 / barrier_.width_m;
   if (!pressures_.empty())
     potential_ = potentialOf(VoxelMesh(problem.problem.body), pressures_, problem.problem.supports.fixations);

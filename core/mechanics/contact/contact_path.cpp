@@ -14,9 +14,9 @@ using State = ContactSolver::State;
 constexpr double farthest_m = 0.2;  ///< of travel
 /// Where the body snaps and no short step is possible, longer ones may lead to where it bears the bar again.
 constexpr std::array<double, 2> leap_m = {3e-3, 6e-3};
-constexpr int closer = 8;  ///< parts of the two steps beside the largest force
+constexpr double base_m = 2e-3;  ///< of travel, that a leap is predicted from
+constexpr int closer = 8;        ///< parts of the two steps beside the largest force
 constexpr double closeTolerance = 1e-4;
-constexpr double base_m = 2e-3;     ///< of travel, that a leap is predicted from
 constexpr double fallen = 0.98;     ///< of the largest force, where no step is possible: the bar slips
 
 struct Path {
@@ -61,6 +61,7 @@ struct Path {
       best_N = std::max(best_N, force_N);
       if (force_N < *solver.problem().force_N) continue;
       state = std::move(at);
+      solver.endTrailAt(state.s);
       return true;
     }
     return false;
@@ -114,9 +115,9 @@ struct Path {
       extrapolate = true;
       return {};
     }
+    if (first && !has && !solver.cuts() && bearsCloser()) return ended(ContactOutcome::Reached, false);
     // Where not even the first step was possible, nothing is known of what the place bears; nor where the coarse cells
     // bore more, and the force has not fallen on these.
-    if (first && !has && !solver.cuts() && bearsCloser()) return ended(ContactOutcome::Reached, false);
     const bool gave = steps > 0 && !solver.cuts() && ((first && indefinite) || last_N < fallen * best_N);
     return ended(has                  ? ContactOutcome::Reached
                  : best_N > 0 && gave ? ContactOutcome::Slips
@@ -133,8 +134,10 @@ struct Path {
     if (leaps > 0) step = ContactSolver::firstStep_m;
     leaps = 0;
     ContactSolution& out = solver.out();
-    if (first) out.path.push_back({state.s, force_N});
-    else solver.met(force_N);
+    if (first)
+      out.path.push_back({state.s, force_N});
+    else
+      solver.met(force_N);
     ++steps;
     out.largestDrop_N = std::max(out.largestDrop_N, last_N - force_N);
     last_N = force_N;

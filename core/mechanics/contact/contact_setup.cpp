@@ -15,12 +15,12 @@ namespace {
 
 constexpr int searchReach = 3;  ///< cells
 
+}  // namespace
+
 std::size_t slotOf(const SolidLevel& level, const VoxelMesh& mesh, int node) {
   const Eigen::Vector3i at = mesh.latticeOf(node);
   return level.lattice->slot(at.x(), at.y(), at.z());
 }
-
-}  // namespace
 
 std::optional<Eigen::Vector3i> carrierCell(const VoxelMesh& mesh, const Eigen::Vector3d& p_m) {
   const Eigen::Vector3d q = p_m.cwiseQuotient(mesh.h_m());
@@ -224,6 +224,7 @@ void describe(const SolidHierarchy& hierarchy, const ContactEnergy& energy, cons
   const SolidLevel& level = hierarchy.level(energy.top());
   const std::size_t n = level.nodes();
   out.travel_m = energy.hasBar() ? at.s : 0;
+  out.touch_m = 0.5 * energy.barrier().width_m;
   out.smallestJ = level.smallestVolumeRatio(at.u.data());
   describeContact(energy, kept, at, problem.surface.size(), out);
   if (energy.hasBar()) out.bar = energy.bar();

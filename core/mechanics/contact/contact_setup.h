@@ -7,6 +7,9 @@
 
 namespace glisson::mechanics {
 
+/// Where a level keeps a node of the body's mesh.
+std::size_t slotOf(const SolidLevel& level, const VoxelMesh& mesh, int node);
+
 /// The filled cell that carries a point (m, grid axes): the one it lies in, or the nearest within three cells.
 std::optional<Eigen::Vector3i> carrierCell(const VoxelMesh& mesh, const Eigen::Vector3d& p_m);
 /// The nearest filled cell, however far.

@@ -81,6 +81,10 @@ NewtonRun ContactSolver::converge(State& state, std::optional<double> force_N, d
   return run;
 }
 
+void ContactSolver::endTrailAt(double travel_m) {
+  while (!trail_.empty() && trail_.back().s >= travel_m) trail_.pop_back();
+}
+
 double ContactSolver::barForce(const State& state) const {
   ContactEnergy::Value value;
   energy_.evaluate(state, {}, false, value);
@@ -194,13 +198,14 @@ bool ContactSolver::moveBar(State& state) {
   constexpr double away_m = 0.1;
   if (!problem_.pressures.empty() || !loads_[energy_.top()].empty()) {
     state.s = -away_m;
-    if (!loadInSteps(state, pathTolerance)) {
+    const bool borne = loadInSteps(state, pathTolerance);
+    state.s = 0;
+    if (!borne) {
       out_.outcome = ContactOutcome::LoadsNotBorne;
       return false;
     }
     energy_.bringToForce(state);
   }
-  state.s = 0;
   return followPath(*this, state, PathKind::First) && finish(state);
 }
 

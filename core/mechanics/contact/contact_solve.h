@@ -66,7 +66,7 @@ struct ContactProblem {
 
 struct ContactOptions {
   double tolerance = 1e-6;  ///< on ‖gradient‖ / load
-  double zone_m = 1e-3;     ///< width of the barrier; half of it lies inside the body
+  double zone_m = 1e-3;     ///< width of the barrier, a fifth of the bar's radius at most; half of it lies inside the body
   double proof = 1.0;       ///< the path is followed to this multiple of the force before the answer is given
   bool pathOnly = false;    ///< stop on the cells that the path is followed on
 };
@@ -87,7 +87,9 @@ struct PathStep {
 struct ContactSolution {
   Solution solution;  ///< of the last equilibrium reached; energy_J: of body, capsule, springs, bed and tethers
   ContactOutcome outcome = ContactOutcome::Stopped;
-  double travel_m = 0;                  ///< of the bar from the first force: half the barrier's width before the first touch
+  /// Of the bar from its first force on the body as the other loads leave it: half the barrier's width before they touch.
+  double travel_m = 0;
+  double touch_m = 0;                   ///< that half
   double capacity_N = 0;                ///< largest force met on the path
   bool capacityExceeded = false;        ///< the force fell after it
   std::vector<PathStep> path;           ///< on the path's cells, then the answer

@@ -37,6 +37,8 @@ class ContactSolver {
   /// Whether the last state that was found was refused, as the bar cut into the surface there.
   bool cuts() const { return cuts_; }
   const std::vector<State>& trail() const { return trail_; }
+  /// The path has turned out to end here: states further on are not behind it.
+  void endTrailAt(double travel_m);
   /// Notes what the place bears at most; false.
   bool slips(double capacity_N);
 
@@ -57,15 +59,19 @@ class ContactSolver {
   ContactSolution out_;
   std::vector<std::vector<double>> loads_;  ///< per level
   double metOnFinest_ = 0;                  ///< largest force that an equilibrium on the finest cells bore
-  bool cuts_ = false;
+  bool cuts_ = false;                       ///< the last state that was found
   int spent_ = 0;                           ///< iterations on the finest cells
   double lastResidual_ = 0;                 ///< of the last equilibrium tried
   std::vector<State> trail_;                ///< of the path up to its end, of the level that is worked on
 };
 
+enum class PathKind {
+  First,  ///< on the coarse cells: it is told, and proved beyond the force
+  Again   ///< on finer ones, which bore less
+};
+
 /// Travel in steps from `state` until force or travel is reached (true), or the force falls or no step is possible. Writes
 /// outcome and capacity of solver.out(), and its path where this is the first time.
-enum class PathKind { First, Again };
 bool followPath(ContactSolver& solver, ContactSolver::State& state, PathKind kind);
 
 /// The travel at which the bar bears the force, with the travel prescribed: that stays well posed where the force hardly

@@ -97,6 +97,7 @@ void ContactTracker::Parts::settle() {
   ContactEnergy::Value value;
   if (!energy.evaluate(now, {}, false, value)) return;
   told.force_N = energy.force(now);
+  told.cuts = energy.cuts(now);
   if (run.iterations == 0) {
     if (run.converged) told.remaining_m = std::min(told.remaining_m, options.tolerance * options.longestMove_m);
     return;

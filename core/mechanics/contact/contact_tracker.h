@@ -26,6 +26,7 @@ struct TrackedState {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< of the bar on the body
   double remaining_m = 0;  ///< estimate of the largest distance of a node from the equilibrium under this bar
   bool atRest = true;      ///< in equilibrium to the tolerance
+  bool cuts = false;       ///< the bar cuts into the surface, whose cells it has drawn apart: no state to go by
   int newton = 0, inner = 0;
 };
 

@@ -29,7 +29,7 @@ class Equilibrium {
   /// ∂r/∂p δp: N per displacement (three arrays of node slots), and one more for the travel.
   using Unbalance = std::vector<double>;
 
-  /// u_m, travel_m: as ContactSolution has them for this problem and these options.
+  /// u_m, travel_m: as ContactSolution has them for this problem and these options;
   /// barStart_m: first point of the bar's centre line at travel 0 (ContactSolution::bar), where loads have moved the body
   /// before the bar came; else the bar starts at its first force on the body at rest.
   Equilibrium(const ContactProblem& problem, const ContactOptions& options, const NodalField& u_m, double travel_m,
@@ -40,7 +40,7 @@ class Equilibrium {
   /// False where the tangent could not be prepared.
   bool usable() const;
   double residual() const;  ///< ‖r‖ over the load
-  /// The bar where it first touches, as its own travel counts.
+  /// The bar at travel 0.
   const RigidBar& bar() const;
 
   /// ∂r/∂p δp of a change, taken to be small: first order in every entry, ln of the moduli included. Turns of the bar
@@ -48,7 +48,8 @@ class Equilibrium {
   Unbalance by(const Change& change) const;
   Unbalance left() const;  ///< r itself: what the solver has left over
 
-  /// −K⁻¹ unbalance to ‖residual‖ ≤ tolerance ‖unbalance‖. found is false where the tangent has a direction of no or
+  /// −K⁻¹ unbalance to ‖residual‖ ≤ tolerance ‖unbalance‖; where bar or surface move, nearly all of that is contact forces
+  /// that cancel, and 1e-6 gives .1 % of the motion (1e-3 half of it). found is false where the tangent has a direction of no or
   /// negative curvature, or the limit is reached.
   EquilibriumMotion respond(const Unbalance& unbalance, double tolerance = 1e-3, int limit = 400);
 

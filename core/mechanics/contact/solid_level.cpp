@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "mechanics/contact/smoother_kernel.h"
+#include "mechanics/lattice_operator.h"
 #include "mechanics/row_sweep.h"
 
 namespace glisson::mechanics {
@@ -47,21 +48,6 @@ auto clearer(const RowLattice& L, T* y) {
   };
 }
 
-std::vector<double> slotsOf(const RowLattice& L, const std::vector<double>& perCell, double factor) {
-  std::vector<double> slots(L.cellSlots(), 0.0);
-  const auto nx = static_cast<std::size_t>(L.cells().x());
-  std::size_t r = 0;
-  for (int k = 0; k < L.cells().z(); ++k)
-    for (int j = 0; j < L.cells().y(); ++j, ++r) {
-      const RowLattice::Row& row = L.cellRow(j, k);
-      const int count = std::min(row.length, L.cells().x() - row.begin);
-      for (int i = 0; i < count; ++i)
-        slots[row.offset + static_cast<std::size_t>(i)] =
-            factor * perCell[r * nx + static_cast<std::size_t>(row.begin + i)];
-    }
-  return slots;
-}
-
 /// Nodes that a filled cell touches.
 std::vector<char> nodesThere(const RowLattice& L, const std::vector<double>& mu) {
   std::vector<char> there(L.nodeSlots(), 0);
@@ -92,8 +78,8 @@ double dotOf(const std::vector<float>& a, const std::vector<float>& b) {
 SolidLevel::SolidLevel(CellModuli m) : moduli(std::move(m)), modes(moduli.h_m) {
   lattice = std::make_shared<RowLattice>(moduli.cells, moduli.mu_Pa);
   const double volume = moduli.h_m.prod();
-  mu = slotsOf(*lattice, moduli.mu_Pa, volume);
-  lambda = slotsOf(*lattice, moduli.lambda_Pa, volume);
+  mu = cellSlotsOf<double>(*lattice, moduli.mu_Pa, volume);
+  lambda = cellSlotsOf<double>(*lattice, moduli.lambda_Pa, volume);
   there = nodesThere(*lattice, mu);
   active.assign(3 * nodes(), 0.0F);
   for (std::size_t i = 0; i < active.size(); ++i) active[i] = there[i % nodes()] != 0 ? 1.0F : 0.0F;

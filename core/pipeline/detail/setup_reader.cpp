@@ -254,6 +254,13 @@ retraction::AnalysisSpec readAnalysis(JsonObject o) {
   if (a.dynamic) {
     a.h_ms = positive(o, "h_ms", o.number("h_ms", a.h_ms));
     a.end_s = positive(o, "end_s", o.number("end_s", a.end_s));
+    const std::string scheme = o.word("scheme", {"implicit-euler", "newmark", "generalised-alpha"}, "implicit-euler");
+    for (const auto s : {mechanics::TimeScheme::Newmark, mechanics::TimeScheme::GeneralisedAlpha})
+      if (scheme == mechanics::nameOf(s)) a.scheme = s;
+    if (a.scheme == mechanics::TimeScheme::GeneralisedAlpha) {
+      a.spectralRadius = o.number("spectral_radius", a.spectralRadius);
+      if (a.spectralRadius < 0 || a.spectralRadius > 1) o.fail("spectral_radius", "must be 0 to 1");
+    }
     if (o.has("rayleigh")) {
       const std::vector<double> r = o.numbers("rayleigh", 2);
       if (r[0] < 0 || r[1] < 0) o.fail("rayleigh", "must be two numbers, alpha (1/s) and beta (s), not negative");

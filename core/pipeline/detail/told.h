@@ -25,9 +25,8 @@ bool isAnswer(const retraction::Result& result);
 /// Why two runs of which one is no answer have no difference.
 void withhold(RunResult& result);
 
-/// Says so where the cells leave open on which side of the clinical line the difference at the retractor lies; else
-/// empty.
-std::string doubtOf(const RunResult& result);
+/// Says so where the cells leave open on which side of the clinical line the difference at the retractor lies.
+void tellOfSignificance(RunResult& result);
 
 /// Where linear theory was used outside its limits: which kinematics to choose and what that changes, and what to
 /// change before where the scene does not offer them. Else empty.

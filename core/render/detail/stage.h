@@ -27,10 +27,10 @@ struct LegendRow {
   std::string text;
 };
 
-/// The renderer with its camera, grid, legend and texts. Text and lines grow with pixelScale.
+/// The renderer with its camera, grid, legend and texts.
 class Stage {
  public:
-  Stage(vtkRenderer* renderer, const SceneOptions3D& options, double pixelScale);
+  Stage(vtkRenderer* renderer, const SceneOptions3D& options);
 
   void add(const vtkSmartPointer<vtkProp>& prop);
   /// Parallel projection: a centimetre of the grid is a centimetre everywhere in its plane.

@@ -228,7 +228,8 @@ TEST_F(Live, EndsAfterTheFramesAskedForAtTheRateAskedFor) {
 /// A liver of one point that does not bear a force beyond 1 N.
 class Brittle : public retraction::LiveRetraction {
  public:
-  explicit Brittle(double scene_N) {
+  explicit Brittle(double scene_N, retraction::LiveOutcome beyond = retraction::LiveOutcome::Slips)
+      : outcome_(beyond) {
     points_ = 1;
     sceneForce_N_ = {0.0, -scene_N, 0.0};
     sceneTarget_.force_N = sceneForce_N_;
@@ -236,11 +237,18 @@ class Brittle : public retraction::LiveRetraction {
   retraction::LiveAnswer follow(const retraction::LiveTarget& target) override {
     retraction::LiveAnswer at;
     at.tool_mm = target.tool_mm;
-    at.slips = target.force_N && target.force_N->norm() > 1.0;
-    if (target.force_N) at.force_N = at.slips ? 0.7 * *target.force_N : *target.force_N;
+    if (!target.force_N) return at;
+    at.force_N = *target.force_N;
+    if (at.force_N.norm() > 1.0) {
+      at.outcome = outcome_;
+      at.force_N *= 0.7;
+    }
     return at;
   }
   void displacements(Eigen::Matrix3Xd& u_mm) const override { u_mm = Eigen::Matrix3Xd::Zero(3, 1); }
+
+ private:
+  retraction::LiveOutcome outcome_;
 };
 
 TEST(LiveSlip, IsToldInEveryFrameUntilItIsOver) {
@@ -267,16 +275,18 @@ TEST(LiveSlip, IsToldInEveryFrameUntilItIsOver) {
   const ServerStatistics s = served.get();
   EXPECT_GE(s.slipping, 3);
   EXPECT_LT(s.slipping, s.frames);
-  EXPECT_FALSE(s.last.atlas.slips);
+  EXPECT_EQ(s.last.atlas.outcome, retraction::LiveOutcome::Borne);
 }
 
 TEST(LiveRehearsal, CountsItsFramesWithoutAClient) {
-  const retraction::LiveLivers livers{std::make_unique<Brittle>(2.0), std::make_unique<Brittle>(0.8)};
+  using retraction::LiveOutcome;
+  const retraction::LiveLivers livers{std::make_unique<Brittle>(2.0), std::make_unique<Brittle>(1.5, LiveOutcome::Cuts)};
   const ServerStatistics s = rehearse(livers, 25);
   EXPECT_EQ(s.frames, 25);
   EXPECT_EQ(s.slipping, 25);
-  EXPECT_TRUE(s.last.mre.slips);
-  EXPECT_FALSE(s.last.atlas.slips);
+  EXPECT_EQ(s.cutting, 25);
+  EXPECT_EQ(s.last.mre.outcome, LiveOutcome::Slips);
+  EXPECT_EQ(s.last.atlas.outcome, LiveOutcome::Cuts);
   EXPECT_GT(s.rate_hz, 0.0);
   EXPECT_THROW(rehearse(livers, 0), BadArgument);
 }

@@ -80,9 +80,9 @@ TEST_P(AtEquilibrium, TheTangentSaysWhatFullSolvesOfChangedProblemsSay) {
   EXPECT_LT(at.residual(), 1e-6);
   for (const std::string& name : names) {
     const Change change = namedChange(name, p, at.bar());
-    // What hardly moves the body needs a longer step, to stand out from what the solver leaves over; there the answer is
-    // rough, as the bar's end and the surface pass over single samples.
-    const double step = name == "along" || name == "surface" ? 2e-2 : 4e-3;
+    // A bar whose end passes over samples of the surface has kinks some µm apart: 2.5 µm stay between two.
+    const bool ofBar = name == "along" || name == "across" || name == "turn";
+    const double step = ofBar ? 5e-4 : 4e-3;
     const EquilibriumMotion first = at.respond(at.by(change), 1e-6);
     ASSERT_TRUE(first.found) << name;
     const EquilibriumMotion up = at.afterwards(scaled(change, step), nullptr, 1e-8, {});
@@ -90,9 +90,9 @@ TEST_P(AtEquilibrium, TheTangentSaysWhatFullSolvesOfChangedProblemsSay) {
     ASSERT_TRUE(up.found && down.found) << name;
     const NodalField full = (up.u_m - down.u_m) / (2 * step);
     EXPECT_GT(full.norm(), 1e-5) << name;
-    EXPECT_LT((first.u_m - full).norm(), (step > 4e-3 ? 0.15 : 5e-3) * full.norm()) << name;
+    EXPECT_LT((first.u_m - full).norm(), 2e-3 * full.norm()) << name;
     const double travel = (up.travel_m - down.travel_m) / (2 * step);
-    EXPECT_NEAR(first.travel_m, travel, 5e-3 * std::abs(travel) + 1e-3 * full.colwise().norm().maxCoeff()) << name;
+    EXPECT_NEAR(first.travel_m, travel, 2e-3 * std::abs(travel) + 1e-3 * full.colwise().norm().maxCoeff()) << name;
   }
 }
 

@@ -86,11 +86,13 @@ TEST(SliceOverlay, theLiverInContactEndsAtItsSurface) {
   scene.bar = bar;
   const SliceOverlayOptions options{.slice = 2, .pixelsPerVoxel = 4, .decorate = false, .outlines = false};
   const Picture picture = sliceOverlay(scene, options);
-  std::size_t lit = 0;
+  std::size_t lit = 0, steel = 0;
   for (std::size_t n = 0; n + 2 < picture.rgb.size(); n += 3) {
     EXPECT_EQ(picture.rgb[n], picture.rgb[n + 2]);
     if (picture.rgb[n] > 150) ++lit;
+    if (picture.rgb[n] == 140) ++steel;
   }
+  EXPECT_NEAR(static_cast<double>(steel) / 16.0, 300.0 + std::numbers::pi * 25.0, 15.0) << "the bar, where it ends";
   EXPECT_NEAR(static_cast<double>(lit) / 16.0, 300.0 + std::numbers::pi * 25.0, 15.0) << "not the 30 mm × 12 mm of the cells";
 }
 

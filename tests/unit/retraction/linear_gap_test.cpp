@@ -114,6 +114,22 @@ TEST(LinearGapInMm, SaysThatAColumnBuckles) {
   EXPECT_TRUE(kinematicsValid(r));
 }
 
+TEST(LinearGapInMm, OfQuadraticTetrahedraIsThatOfHexahedraNearIncompressibility) {
+  const Model m = box({12, 4, 4}, {60, 20, 20}, 0.4999);
+  const auto gapOf = [&](ModelKind kind) {
+    retraction::Setup s = pulled({0, 0, -0.02}, 0.4999);
+    s.model.kind = kind;
+    s.model.quadraticTets = true;
+    Result r = simulate(m, s, {});
+    judgeByGap(m, s, {}, r);
+    EXPECT_TRUE(r.linearGap->known) << r.linearGap->why;
+    return *r.linearGap;
+  };
+  const LinearGap tets = gapOf(ModelKind::FemTet), hexes = gapOf(ModelKind::FemHex);
+  EXPECT_EQ(tets.stability, mechanics::Stability::Stable);
+  EXPECT_NEAR(tets.max_mm, hexes.max_mm, 0.35 * hexes.max_mm);
+}
+
 TEST(ErrorOfLockingElements, IsUnknownAndBBarIsAskedInstead) {
   const Model m = box({20, 4, 4}, {50, 10, 10}, 0.4999);
   for (const bool tetrahedra : {false, true}) {

@@ -115,7 +115,7 @@ TEST(LiveContact, ComesToRestUnderASmallForceAndUnderALargeOne) {
     const LiveAnswers at = followScene(livers, 300);
     for (const LiveAnswer* one : {&at.mre, &at.atlas}) {
       EXPECT_TRUE(one->atRest) << force_N;
-      EXPECT_FALSE(one->slips) << force_N;
+      EXPECT_EQ(one->outcome, LiveOutcome::Borne) << force_N;
       EXPECT_NEAR(-one->force_N.y(), force_N, tolerance(force_N));
     }
     EXPECT_GT(at.atlas.tool_mm.norm(), at.mre.tool_mm.norm());
@@ -141,8 +141,24 @@ TEST(LiveContact, SaysThatTheBarSlips) {
   std::get<Retractor>(setup.loads[0]).at_mm = Eigen::Vector3d(32.0, 64.0, 62.0);
   const LiveLivers livers = liversOf(setup);
   const LiveAnswers at = followScene(livers, 300);
-  EXPECT_TRUE(at.atlas.slips);
+  EXPECT_EQ(at.atlas.outcome, LiveOutcome::Slips);
   EXPECT_TRUE(at.atlas.atRest);
+}
+
+TEST(LiveContact, SaysThatTheBarCutsAndGoesBackWithASmallerForce) {
+  retraction::Setup setup = blockSetup();
+  std::get<Retractor>(setup.loads[0]).force_N = 8.0;  // in the middle of the softer block, more than its cells bear
+  const LiveLivers livers = liversOf(setup);
+  const LiveAnswers at = followScene(livers, 300);
+  EXPECT_EQ(at.atlas.outcome, LiveOutcome::Cuts);
+  EXPECT_TRUE(at.atlas.atRest);
+  EXPECT_EQ(at.mre.outcome, LiveOutcome::Borne);
+  LiveTarget less;
+  less.force_N = 0.25 * livers.atlas->sceneForce_N();
+  LiveAnswer after;
+  for (int n = 0; n < 300 && !(after.atRest && n > 0); ++n) after = livers.atlas->follow(less);
+  EXPECT_EQ(after.outcome, LiveOutcome::Borne);
+  EXPECT_NEAR(-after.force_N.y(), 2.0, tolerance(2.0));
 }
 
 }  // namespace
