@@ -79,6 +79,7 @@ void Context::print(const Json& object, const std::string& text) const {
     refuseIfStrict(*this, {}, warnings);
     whole["diagnostics"] = diagnosticsJson({}, warnings);
   }
+  if (!whole.contains("diagnostics")) whole["diagnostics"] = Json::array();
   if (json)
     // Words of damaged files may be no text.
     std::cout << whole.dump(1, ' ', false, Json::error_handler_t::replace) << std::endl;

@@ -118,6 +118,7 @@ Json recordOf(const live::ServerStatistics& s, const retraction::LiveLivers& liv
             {"rate_hz", s.rate_hz},
             {"evaluate_us", s.evaluate_us},
             {"remaining_mm", s.remaining_mm},
+            {"remaining_last_mm", std::max(s.last.mre.remaining_mm, s.last.atlas.remaining_mm)},
             {"latency_ms", s.latency_ms},
             {"latency_max_ms", s.latency_max_ms},
             {"slipping_frames", s.slipping},

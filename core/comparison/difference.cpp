@@ -60,12 +60,18 @@ void compareContacts(const retraction::RigidContact& a, const retraction::RigidC
   d.window_at_rest_mm = window.value();
   d.contact_mean_mm = pressed.value();
   d.travel_mm = a.travel_mm - b.travel_mm;
+  // Where both have travelled alike, the answers themselves say it.
+  constexpr double alike_mm = 1e-6;
+  if (std::abs(*d.travel_mm) < alike_mm) {
+    d.equal_lift = {a.travel_mm, a.force_N.dot(a.hoist), b.force_N.dot(b.hoist), false};
+    return;
+  }
   // Both forces along the paths that are drawn, neither brought to the answers' cells: what the coarse cells add, they
   // add to both.
   double lift_mm = std::min(a.travel_mm, b.travel_mm);
   for (const retraction::RigidContact* c : {&a, &b})
     if (!c->path.empty()) lift_mm = std::min(lift_mm, c->path.back()[0]);
-  d.equal_lift = {lift_mm, retraction::forceAt(a.path, lift_mm), retraction::forceAt(b.path, lift_mm)};
+  d.equal_lift = {lift_mm, retraction::forceAt(a.path, lift_mm), retraction::forceAt(b.path, lift_mm), true};
 }
 
 }  // namespace

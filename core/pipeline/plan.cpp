@@ -248,6 +248,8 @@ std::vector<PlanStep> plan(const Scene& s) {
       2 * solve_s, 0.2 * solve_MB);
   add("capsule", n.rigidBar && s.setup.capsule.has_value(),
       !n.rigidBar        ? "there is no rigid bar that would fold the surface"
+      : s.setup.capsule && s.setup.capsule->form == retraction::CapsuleForm::Cells
+          ? "Glisson's capsule stiffens a layer of 3 mm below the surface, in all directions"
       : s.setup.capsule ? "Glisson's capsule carries tension along the surface"
                         : "the scene leaves it out, or the body is no liver");
   add("ligaments", n.ligaments,

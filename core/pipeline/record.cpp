@@ -78,7 +78,7 @@ Json differenceToJson(const comparison::Difference& d) {
     j["equal_lift"] = {{"travel_mm", d.equal_lift->travel_mm},
                        {"force_N", d.equal_lift->force_N},
                        {"atlas_force_N", d.equal_lift->other_force_N},
-                       {"along", "path on coarse cells"}};
+                       {"along", d.equal_lift->alongPath ? "path on coarse cells" : "the answers"}};
   }
   return j;
 }

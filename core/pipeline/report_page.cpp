@@ -75,7 +75,7 @@ void results(Page& page, const Scene& scene, const RunResult& r) {
       rows.emplace_back("Force on the bar at equal lift (" + number(d.equal_lift->travel_mm, 3) + " mm)",
                         number(d.equal_lift->force_N, 3) + " N " + ownWord + ", " +
                             number(d.equal_lift->other_force_N, 3) +
-                            " N textbook (along the path, on its coarse cells)");
+                            " N textbook" + (d.equal_lift->alongPath ? " (along the path, on its coarse cells)" : ""));
     }
     if (!d.vessel_mm.empty()) {
       rows.emplace_back("Vessel landmarks, mean", number(d.vesselMean_mm) + " mm");

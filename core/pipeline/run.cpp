@@ -300,6 +300,8 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     const auto gap = [&](const retraction::Model& model, const retraction::Result& answer, retraction::Result& told) {
       if (answer.solver.converged() && told.solver.converged())
         told.linearGap = retraction::gapBetween(model, answer, told, r.landmarks_mm);
+      else if (told.solver.converged())
+        told.linearGap.emplace().why = "linear theory has no answer here";
     };
     gap(r.model, linear.primary, r.primary);
     if (r.atlas) gap(atlasModel, *linear.atlas, *r.atlas);
@@ -310,7 +312,7 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
     r.linear = std::move(linear);
   });
 
-  detail::tellOfContact(r);
+  detail::tellOfContact(scene, r);
   steps.run("linear-gap", [&](const Progress& p) {
     const double half = r.atlas ? 0.5 : 1.0;
     gapOf(r.model, setup, r.landmarks_mm, r.primary, p.part(0.0, half));

@@ -144,13 +144,13 @@ bool isOfRun(DiagnosticCode code) {
     case DiagnosticCode::NotConverged:
       return true;
     default:
-      return false;
+      return Diagnostic{code, {}}.severity() == Severity::Error;
   }
 }
 
 }  // namespace
 
-void tellOfContact(RunResult& r) {
+void tellOfContact(const Scene& scene, RunResult& r) {
   for (const bool atlas : {false, true}) {
     if (atlas && !r.atlas) continue;
     for (Diagnostic d : (atlas ? *r.atlas : r.primary).doubts) {
@@ -163,9 +163,14 @@ void tellOfContact(RunResult& r) {
   if (!r.primary.contact) return;
   const retraction::RigidContact& c = *r.primary.contact;
   r.diagnostics.add(DiagnosticCode::ContactByCells, {{"cell_mm", r.model.youngs_kPa.grid.spacing_mm.maxCoeff()}});
-  if (std::abs(c.moved_mm) > c.barRadius_mm)
-    r.diagnostics.add(DiagnosticCode::RetractorLaid, {{"distance_mm", std::abs(c.moved_mm)},
-                                                      {"side", std::string(c.moved_mm < 0 ? "before" : "beyond")}});
+  // The placed bar's point is its axis on a smooth body: what counts is how far from the scene's own point it touches.
+  for (const retraction::LoadSpec& load : scene.setup.loads)
+    if (const auto* bar = std::get_if<retraction::Retractor>(&load); bar && bar->at_mm && r.placed) {
+      const double moved_mm = c.moved_mm + (*r.placed->bar.at_mm - *bar->at_mm).dot(c.hoist);
+      if (std::abs(moved_mm) > c.barRadius_mm)
+        r.diagnostics.add(DiagnosticCode::RetractorLaid, {{"distance_mm", std::abs(moved_mm)},
+                                                          {"side", std::string(moved_mm < 0 ? "before" : "beyond")}});
+    }
 }
 
 void tellOfAtlas(RunResult& r) {

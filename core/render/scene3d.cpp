@@ -205,8 +205,8 @@ void Picture3D::pressure() {
     stage_.add(glassSurface(barAfter(scene_, contact, options_.t), still, steelGrey, 0.10, 0.95));
   }
   const Rgb own = ofMre ? colour_.mre : colour_.atlas;
-  std::vector<LegendRow> legend{{own, "contact, " + (ofMre ? scene_.stiffness : std::string("atlas")) + " stiffness"},
-                                {pressureColour(0.9), inWords(contact.force_N, 1, "N along the hoist")},
+  std::vector<LegendRow> legend{{own, "way of the bar, " + (ofMre ? scene_.stiffness : std::string("atlas")) + " stiffness"},
+                                {pressureColour(0.9), "contact: " + inWords(contact.force_N, 1, "N along the hoist,")},
                                 {pressureColour(0.9), inWords(contact.resultant_N, 1, "N in all, on ") +
                                                           inWords(1e-2 * contact.area_mm2, 1, "cm²")},
                                 {pressureColour(0.0), "liver, retracted"},

@@ -31,4 +31,15 @@ double travelAtCapacity(const RigidContact& c) {
   return most == c.path.end() ? c.travel_mm : (*most)[0];
 }
 
+std::optional<double> passedOnTheWay_N(const RigidContact& c) {
+  constexpr double clearly = 0.9;    // of the largest force: states of the path are loose
+  constexpr double before_mm = 1.0;  // the end, where that force was met
+  if (!(c.asked_mm > 0.0) || c.path.empty()) return {};
+  double most_N = 0.0;
+  for (const auto& [travel_mm, force_N] : c.path)
+    if (travel_mm < c.path.back()[0] - before_mm) most_N = std::max(most_N, force_N);
+  if (c.path.back()[1] < clearly * most_N) return most_N;
+  return {};
+}
+
 }  // namespace glisson::retraction

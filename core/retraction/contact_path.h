@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace glisson::retraction {
@@ -16,5 +17,9 @@ double forceAt(const ContactPath& path, double travel_mm);
 /// Travel at which the largest force is borne. The path is followed on coarse cells, which may bear more than those of
 /// the answer: where the capacity lies below the path's largest force, where the path first comes to it.
 double travelAtCapacity(const RigidContact& contact);
+
+/// Of a bar that is driven by its travel: the largest force of its path, N, where the force at its end is clearly below
+/// that; else empty.
+std::optional<double> passedOnTheWay_N(const RigidContact& contact);
 
 }  // namespace glisson::retraction

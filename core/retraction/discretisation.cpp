@@ -179,6 +179,7 @@ struct Missed {
   std::vector<Vector3d> byModel;  ///< from the voxel FEM on the same cells, where the model is mesh-free; from B-bar
                                   ///< hexahedra, where the elements lock a little
   std::vector<Vector3d> byCells;
+  double travel_mm = 0.0;  ///< of a rigid bar that a force drives
   double cell_mm = 0.0, coarse_mm = 0.0;
 };
 
@@ -255,6 +256,8 @@ Missed missed(const Model& model, const Setup& setup, const Result& result, cons
   requireConverged(rough);
   const std::vector<Vector3d> coarse = displacementAt(other, rough, points);
   const double share = split ? 2.0 : 1.0 / (ratio - 1.0);
+  if (result.contact && rough.contact && result.contact->asked_N > 0.0)
+    m.travel_mm = share * (result.contact->travel_mm - rough.contact->travel_mm);
   for (std::size_t i = 0; i < points.size(); ++i) {
     m.byModel.push_back(own[i] - fine[i]);
     m.byCells.push_back(share * (cellwise[i] - coarse[i]));
@@ -294,10 +297,12 @@ struct Places {
     all.insert(all.end(), landmarks_mm.begin(), landmarks_mm.end());
   }
   std::vector<double> ofCells(const std::vector<double>& l) const { return finite(l, 0, cells); }
-  /// Means (and the largest of the landmarks) where there is something to take them of.
+  /// Means (and the largest of the landmarks) where there is something to take them of. The tissue under a bar goes where
+  /// the bar goes, so its travel counts at the retractor where that differs by more.
   template <class Told>
-  void tell(const std::vector<double>& l, Told& told) const {
-    if (const auto there = finite(l, cells, cells + contact); !there.empty()) told.at_retractor_mm = meanOf(there);
+  void tell(const std::vector<double>& l, double travel_mm, Told& told) const {
+    if (const auto there = finite(l, cells, cells + contact); !there.empty())
+      told.at_retractor_mm = std::max(meanOf(there), std::abs(travel_mm));
     if (const auto vessels = finite(l, cells + contact, l.size()); !vessels.empty()) {
       told.vessels_mm = meanOf(vessels);
       told.vesselsMax_mm = *std::max_element(vessels.begin(), vessels.end());
@@ -324,10 +329,11 @@ std::optional<DiscretisationError::OfDifference> ofDifference(Missed own, const 
     own.byModel[i] -= other.byModel[i];
     own.byCells[i] -= other.byCells[i];
   }
+  own.travel_mm -= other.travel_mm;
   const std::vector<double> all = lengths(own);
   DiscretisationError::OfDifference d;
   d.mean_mm = meanOf(places.ofCells(all));
-  places.tell(all, d);
+  places.tell(all, own.travel_mm, d);
   std::ostringstream t;
   t.precision(3);
   t << what << "about " << d.mean_mm << " mm on average";
@@ -361,7 +367,7 @@ DiscretisationError discretisationError(const retraction::Model& model, const re
     std::sort(error.begin(), error.end());
     e.max_mm = error.back();
     e.p95_mm = error[static_cast<std::size_t>(0.95 * static_cast<double>(error.size() - 1))];
-    places.tell(all, e);
+    places.tell(all, own.travel_mm, e);
     e.known = true;
     std::ostringstream t;
     t.precision(3);

@@ -15,7 +15,9 @@ struct DiscretisationError {
   double max_mm = 0.0;  ///< over the cells
   double p95_mm = 0.0;  ///< 95 % of the cells are below
   double mean_mm = 0.0;
-  std::optional<double> at_retractor_mm;  ///< mean over the nodes of the contact, as comparison::Difference has it
+  /// Mean over the nodes of the contact, as comparison::Difference has it; of a rigid bar that a force drives at least
+  /// what its travel is off by.
+  std::optional<double> at_retractor_mm;
   std::optional<double> vessels_mm, vesselsMax_mm;  ///< over the landmarks: mean, largest
   double cell_mm = 0.0, coarse_mm = 0.0;  ///< largest cell edge of the result's grid and of the other
   std::string note;                       ///< in words, for reports

@@ -13,6 +13,7 @@ PlacedBar placeBar(const Model& model, const Model* other, const Setup& setup, c
   PlacedBar placed;
   if (!model.smooth) {
     if (!bar->at_mm) throw BadInput("the retractor on a box needs its place: give \"at\" as a point");
+    findContact(Body(model), *bar, *bar->at_mm);  // refuses a point that is not on a surface looking against the hoist
     placed.bar = *bar;
     placed.bar.axis = bar->patchAxis();
     return placed;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "retraction/contact_path.h"
 #include "retraction/detail/contact_scene.h"
 #include "retraction/ligaments.h"
 
@@ -10,6 +11,7 @@ namespace glisson::retraction {
 namespace {
 
 constexpr double loosestTolerance = 1e-3;
+constexpr double nothing = 1e-6;  ///< of the force asked for
 
 /// What is offered in place of what refuses.
 const char* offeredFor(RigidRefusal refusal) {
@@ -109,6 +111,10 @@ RigidContact toRetraction(const Body& body, const ContactScene& scene, const mec
                1e3 * s.touch_m;
   c.hoist = vector(s.bar.hoist);
   for (const mechanics::PathStep& step : s.path) c.path.push_back({1e3 * step.travel_m, step.force_N});
+  if (const std::optional<double> most_N = passedOnTheWay_N(c)) {
+    c.capacityExceeded = true;
+    c.capacity_N = *most_N;
+  }
   c.sample_mm = scene.sample_mm;
   c.cut_u_m = s.solution.u_m;
   for (std::size_t i = 0; i < scene.problem.surface.size(); ++i) {
@@ -143,6 +149,12 @@ RigidContactAnswer solveRigidContact(const Body& body, const Model& model, const
   mechanics::ContactOptions options;
   options.tolerance = std::clamp(setup.solver.tolerance, 1e-6, loosestTolerance);
   mechanics::ContactSolution s = mechanics::solveContact(contact.problem, options, progress);
+  // Ligaments that go slack as the body moves resist at the start only.
+  if (s.outcome == mechanics::ContactOutcome::Slips && contact.problem.force_N &&
+      s.capacity_N < nothing * *contact.problem.force_N)
+    throw BadInput(
+        "nothing resists the bar: along its hoist the body moves freely, as ligaments are slack or nothing holds it; add "
+        "supports that pull as well, or hoist the other way");
   RigidContactAnswer answer;
   answer.dofs = static_cast<int>(3 * s.solution.u_m.cols());
   answer.contact = toRetraction(body, contact, s);

@@ -209,18 +209,8 @@ std::string askedOf(const RigidContact& c) {
   return t.str();
 }
 
-/// Largest force of the path up to `before_mm` before its end, N.
-double mostBefore(const RigidContact& c, double before_mm) {
-  double most_N = 0.0;
-  for (const auto& [travel_mm, force_N] : c.path)
-    if (travel_mm < c.path.back()[0] - before_mm) most_N = std::max(most_N, force_N);
-  return most_N;
-}
-
 /// The bar did not get to what was asked for, or only behind a limit: says so. False where there is nothing to say.
 bool doubtOfBar(const RigidContact& c, const std::string& stiffness, Result& r) {
-  constexpr double pastLimit = 0.9;  // of the largest force on the path, whose states are loose
-  constexpr double before_mm = 1.0;  // its end, where that force was met
   const auto failed = [&](DiagnosticCode code) {
     r.doubt(code, {{"capacity_N", c.capacity_N},
                    {"capacity_travel_mm", travelAtCapacity(c)},
@@ -244,10 +234,9 @@ bool doubtOfBar(const RigidContact& c, const std::string& stiffness, Result& r) 
                                               {"tolerance", r.solver.tolerance}});
       return true;
     case mechanics::ContactOutcome::Reached:
-      if (const double most_N = mostBefore(c, before_mm);
-          c.asked_mm > 0.0 && !c.path.empty() && c.path.back()[1] < pastLimit * most_N) {
+      if (const std::optional<double> most_N = passedOnTheWay_N(c)) {
         r.doubt(DiagnosticCode::RetractorPastLimit,
-                {{"force_N", c.force_N.dot(c.hoist)}, {"capacity_N", most_N}, {"stiffness", stiffness}});
+                {{"force_N", c.force_N.dot(c.hoist)}, {"capacity_N", *most_N}, {"stiffness", stiffness}});
         return true;
       }
       return false;
@@ -298,7 +287,7 @@ void judge(const Model& model, const Body& body, const mechanics::Solution& s, R
   if (!converged && !said)
     r.doubt(DiagnosticCode::NotConverged,
             {{"stiffness", model.stiffness},
-             {"status", mechanics::describe(s.report.status) + (linear ? "" : " (" + s.report.why + ")")}});
+             {"status", mechanics::describe(s.report.status) + (linear || s.report.why.empty() ? "" : " (" + s.report.why + ")")}});
   r.linearTrusted = validity.linearTrusted && converged;
   r.drawable = converged && !validity.invalid;
   if (r.contact && !linear) {

@@ -198,6 +198,54 @@ class Contact(SceneTest):
         self.assertEqual((out / "K.mtx").read_bytes(), before[out / "K.mtx"])
         self.assertTrue(all(pathlib.Path(f).parent == out for f in done["files"]))
 
+    #: A block held from below, pushed into from above.
+    LOW = {"geometry": {"kind": "box", "size_mm": [80, 60, 40], "cell_mm": 5},
+           "material": {"shear_kPa": 2, "poisson": 0.45},
+           "supports": [{"region": {"face": "z-"}, "kind": "fixed"}]}
+
+    def pushed(self, **more):
+        return {"kind": "retractor", "diameter_mm": 10, "length_mm": 40, "at": [40, 30, 40], "axis": [0, 1, 0],
+                "direction": [0, 0, -1], **more}
+
+    def test_a_bar_on_the_far_side_or_where_nothing_resists_is_refused(self):
+        for bar in (self.pushed(direction=[0, 0, 1], force=2), self.pushed(at=[40, 30, 90], force=2)):
+            process = cli("run", write_scene(self.folder, {**self.LOW, "loads": [bar]}), "--output",
+                          self.folder / "out", "--quiet", code=3)
+            self.assertIn("no contact", process.stderr)
+        slack = {**self.LOW, "loads": [self.pushed(force=2)], "supports": [
+            {"region": {"face": "z-"}, "kind": "ligament", "name": "falciform"},
+            {"region": {"face": "x-"}, "kind": "ligament", "name": "other", "two_sided": True}]}
+        process = cli("run", write_scene(self.folder, slack), "--output", self.folder / "out", "--quiet", code=3)
+        self.assertIn("nothing resists the bar", process.stderr)
+
+    def test_bars_that_travelled_alike_are_compared_by_their_answers(self):
+        r = self.run_scene({**self.LOW, "loads": [self.pushed(drive={"travel_mm": 8})],
+                            "compare": {"against": "atlas", "shear_kPa": 1.0}})
+        lift = r["difference"]["equal_lift"]
+        self.assertEqual((lift["travel_mm"], lift["along"]), (8.0, "the answers"))
+        self.assertEqual(lift["force_N"], r["contact"]["force_along_hoist_N"])
+        self.assertEqual(lift["atlas_force_N"], r["atlas"]["contact"]["force_along_hoist_N"])
+        self.assertNotIn("retractor-laid", {d["code"] for d in r["diagnostics"]})
+
+    def test_a_travel_past_the_largest_force_tells_that_force(self):
+        shelf = {"geometry": {"kind": "box", "size_mm": [100, 40, 20], "cell_mm": 5},
+                 "material": {"shear_kPa": 2, "poisson": 0.45},
+                 "supports": [{"region": {"face": "x-"}, "kind": "fixed"}],
+                 "loads": [{"kind": "retractor", "at": [85, 20, 0], "axis": [0, 1, 0], "length_mm": 60,
+                            "direction": [0, 0, 1], "drive": {"travel_mm": 60}}]}
+        r = self.run_scene(shelf)
+        past = [d for d in r["diagnostics"] if d["code"] == "retractor-past-limit"]
+        self.assertEqual(len(past), 1)
+        self.assertEqual(r["contact"]["capacity_N"], past[0]["arguments"]["capacity_N"])
+        self.assertGreater(r["contact"]["capacity_N"], r["contact"]["force_along_hoist_N"])
+        self.assertLess(r["contact"]["capacity_travel_mm"], 60)
+
+    def test_errors_of_linear_answers_are_refused_if_strict(self):
+        scene = {**self.LOW, "loads": [self.pushed(force=2)], "kinematics": "linear"}
+        r = self.run_scene(scene)
+        self.assertIn("cells-inside-out", {d["code"] for d in r["diagnostics"]})
+        cli("run", write_scene(self.folder, scene), "--output", self.folder / "out", "--quiet", "--strict", code=3)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -14,7 +14,7 @@ std::string whyKinematics(const Scene& scene, const retraction::Result& result);
 /// No place that was tried bears the force.
 void tellOfPlaces(RunResult& result);
 /// Bars that slip or get no further, each once, and what the figures of contact depend on.
-void tellOfContact(RunResult& result);
+void tellOfContact(const Scene& scene, RunResult& result);
 /// What the second stiffness has to say, but slips.
 void tellOfAtlas(RunResult& result);
 
