@@ -149,11 +149,17 @@ int scan(const Arguments& a, const Context& context) {
     for (const std::string& w : one.diagnostics.texts(Severity::Warning)) text << "warning: " << w << "\n";
   }
   j["patients"] = patientsOf(found);
+  const bool none = found.series.empty();
+  if (none)
+    all.add(DiagnosticCode::NoImageSeries,
+            {{"files", static_cast<std::int64_t>(found.skipped.size())}});
   j["diagnostics"] = diagnosticsJson(all, warnings);
-  refuseIfStrict(context, all, warnings);
-  if (found.series.empty()) text << "no image series found\n";
+  if (!none) refuseIfStrict(context, all, warnings);
   context.print(j, text.str());
-  return Ok;
+  if (!none) return Ok;
+  throw BadInput(all.texts(Severity::Error).front() +
+                 (found.skipped.empty() ? std::string() : ": " + found.skipped.front().reason) +
+                 "; give the folder or file that holds the images");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "dicom/acquisitions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "base/error.h"
@@ -202,6 +203,34 @@ std::vector<int> volumesOf(const Evidence& e, int wave) {
   return all;
 }
 
+/// Whether the partner goes on with the same slices where those of the stiffness end: slices of the stiffness are lost.
+bool goesOn(const Series& stiffness, const Series& partner) {
+  const image::Grid &a = stiffness.grid, &b = partner.grid;
+  if (a.size.z() >= b.size.z() || stiffness.error || a.spacing_mm.z() <= 0.0) return false;
+  if (stiffness.frameOfReferenceUid != partner.frameOfReferenceUid) return false;
+  if (std::abs(a.spacing_mm.z() - b.spacing_mm.z()) > 0.02 * b.spacing_mm.z() && a.size.z() > 1) return false;
+  constexpr double onSlice = 0.1;  // of their distance
+  for (const double k : {0.0, a.size.z() - 1.0}) {
+    const double at = b.lpsToIndex(a.indexToLps({0.0, 0.0, k})).z();
+    if (std::abs(at - std::round(at)) > onSlice || at < -0.5 || at > b.size.z() - 0.5) return false;
+  }
+  return true;
+}
+
+/// The first partner that has more slices than the stiffness.
+void tellMoreSlices(const Evidence& e, Acquisition& a) {
+  for (const int p : {a.confidence, a.magnitude, a.wave.empty() ? -1 : a.wave.front()}) {
+    if (p < 0 || !goesOn(e.series(a.stiffness), e.series(p))) continue;
+    a.diagnostics.add(DiagnosticCode::PartnerHasMoreSlices,
+                      {{"role", name(e.series(p).role)},
+                       {"series", numberOf(e, p)},
+                       {"there", std::int64_t{e.series(p).grid.size.z()}},
+                       {"stiffness", numberOf(e, a.stiffness)},
+                       {"here", std::int64_t{e.series(a.stiffness).grid.size.z()}}});
+    return;
+  }
+}
+
 Acquisition partners(const Evidence& e, int stiffness) {
   Acquisition a;
   a.stiffness = stiffness;
@@ -217,6 +246,7 @@ Acquisition partners(const Evidence& e, int stiffness) {
   say("magnitude", a.magnitude);
   say("wave", a.wave.empty() ? -1 : a.wave.front());
   say("confidence", a.confidence);
+  tellMoreSlices(e, a);
   if (a.why.empty()) a.why = "the stiffness alone: nothing else here belongs to it";
   return a;
 }

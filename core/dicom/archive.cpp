@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -90,18 +91,12 @@ class Unpacker {
       skip(place->string(), "is an archive inside the archive; unpack it by hand");
       return false;
     }
-    std::error_code failed;
-    fs::create_directories((root_ / *place).parent_path(), failed);
-    descriptor_ =
-        failed ? -1 : open((root_ / *place).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
-    if (descriptor_ < 0) {
-      skip(place->string(), "occurs twice in the archive, or its name cannot be used; the first one counts");
-      return false;
-    }
+    pending_ = *place;
     return true;
   }
 
   void data(const char* bytes, std::size_t count) {
+    if (count > 0) make();
     written_ += count;
     if (written_ > budget_)
       refuse("unpacks to more than 256 MiB and 100 times its size, or than half of the free space; it is refused");
@@ -123,9 +118,29 @@ class Unpacker {
   void finish() {
     if (descriptor_ >= 0) close(descriptor_);
     descriptor_ = -1;
+    if (!pending_.empty()) ++empty_;
+    pending_.clear();
+  }
+
+  /// After the last entry.
+  void tellEmpty() {
+    finish();
+    if (empty_ > 0)
+      skipped_.push_back({archive_, "holds " + std::to_string(empty_) + " empty files, which were left out"});
   }
 
  private:
+  /// The file of the entry, once there is something to write: empty ones are none.
+  void make() {
+    if (pending_.empty()) return;
+    const fs::path place = std::exchange(pending_, {});
+    std::error_code failed;
+    fs::create_directories((root_ / place).parent_path(), failed);
+    descriptor_ = failed ? -1 : open((root_ / place).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+    if (descriptor_ < 0)
+      skip(place.string(), "occurs twice in the archive, or its name cannot be used; the first one counts");
+  }
+
   [[noreturn]] static void refuse(const std::string& reason) {
     RefusedFile r;
     r.reason = reason;
@@ -139,6 +154,8 @@ class Unpacker {
   std::uint64_t budget_;
   std::vector<SkippedFile>& skipped_;
   fs::path archive_;
+  fs::path pending_;  ///< of the entry that begins; empty once its file is made
+  std::size_t empty_ = 0;
   int descriptor_ = -1;
   std::uint64_t written_ = 0;
   std::size_t entries_ = 0;
@@ -201,6 +218,7 @@ std::unique_ptr<PrivateFolder> unpackArchive(const fs::path& file, std::vector<S
   isolated.unpack({[&](const std::string& name) { return unpacker.begin(name); },
                    [&](const char* bytes, std::size_t count) { unpacker.data(bytes, count); },
                    [&](const std::string& name, const std::string& reason) { unpacker.refused(name, reason); }});
+  unpacker.tellEmpty();
   return folder;
 }
 

@@ -120,6 +120,17 @@ void addDimensions(DcmItem& data, DcmItem& content, Frame& frame) {
   }
 }
 
+/// Words about the values beside the description: how they were derived, and the label of their map.
+std::string wordsAboutValues(const FrameView& view, DcmItem& data) {
+  constexpr std::size_t most = 300;
+  std::string words = shownText(data, DCM_DerivationDescription).substr(0, most);
+  if (DcmItem* holder = view.mapping()) {
+    DcmItem& map = *itemOf(*holder, DCM_RealWorldValueMappingSequence);
+    words += ' ' + shownText(map, DCM_LUTExplanation).substr(0, most) + ' ' + shownText(map, DCM_LUTLabel);
+  }
+  return words;
+}
+
 void readKinds(const FrameView& view, DcmItem& data, const std::string& privateType, Frame& frame) {
   const auto add = [&frame](const char* what, const std::string& value) {
     if (!value.empty()) frame.kinds.emplace_back(what, value);
@@ -140,6 +151,7 @@ void readKinds(const FrameView& view, DcmItem& data, const std::string& privateT
       text(content, &content == &data ? DCM_TemporalPositionIdentifier : DCM_TemporalPositionIndex));
   add("trigger time", text(data, DCM_TriggerTime));
   add("acquisition number", text(data, DCM_AcquisitionNumber));
+  add("words about values", wordsAboutValues(view, data));
   if (&content == &data) return;
   add("trigger delay", text(view.group(DCM_CardiacSynchronizationSequence), DCM_NominalCardiacTriggerDelayTime));
   add("frame acquisition number", text(content, DCM_FrameAcquisitionNumber));

@@ -23,6 +23,7 @@ struct MapItem {
   ValueSegment segment;
   bool bounded = false;  ///< says which stored values it is defined for
   std::string unit;
+  bool unitUnclear = false;  ///< its code and its words name different ones
   std::optional<MapQuantity> quantity;
 
   bool ofStiffness() const { return mapUnit(unit).has_value() || (quantity && *quantity != MapQuantity::Other); }
@@ -96,6 +97,7 @@ std::optional<MapItem> readItem(DcmItem& item, const ImageHeader& h) {
   if (DcmItem* units = itemOf(item, DCM_MeasurementUnitsCodeSequence)) {
     const std::string code = shownText(*units, DCM_CodeValue), meaning = shownText(*units, DCM_CodeMeaning);
     map.unit = canonicalUnit(mapUnit(code) || !mapUnit(meaning) ? code : meaning);
+    map.unitUnclear = mapUnit(code) && mapUnit(meaning) && canonicalUnit(code) != canonicalUnit(meaning);
   }
   map.quantity = quantityOf(item);
   auto first = limit(item, DCM_RealWorldValueFirstValueMapped, DCM_DoubleFloatRealWorldValueFirstValueMapped);
@@ -196,6 +198,7 @@ void useMap(std::vector<MapItem> items, Frame& frame, ImageHeader& header) {
       item.segment.line = {f * item.segment.line.slope, f * item.segment.line.intercept};
       for (double& v : item.segment.table) v *= f;
     }
+    if (item.unitUnclear) frame.scaleDoubt = ScaleDoubt::UnitUnclear;
     map.push_back(item.segment);
   }
   frame.unit = best.unit == "1" ? std::string() : best.unit;
@@ -226,9 +229,13 @@ void readValues(DcmItem& transformation, DcmItem* mapping, Frame& frame, ImageHe
     frame.unit = canonicalUnit(type);
 
   std::vector<MapItem> items = itemsOf(mapping, header, frame), stiffness;
-  if (items.empty()) return;
   std::copy_if(items.begin(), items.end(), std::back_inserter(stiffness),
                [](const MapItem& item) { return item.ofStiffness(); });
+  if (stiffness.empty() && itemOf(transformation, DCM_ModalityLUTSequence) != nullptr) {
+    frame.scaleDoubt = ScaleDoubt::TableUnread;
+    return;
+  }
+  if (items.empty()) return;
   if (slope && mapUnit(frame.unit)) {
     if (stiffness.empty()) return;
     const auto same = std::find_if(stiffness.begin(), stiffness.end(),

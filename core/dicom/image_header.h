@@ -41,6 +41,8 @@ enum class ScaleDoubt {
   RescaleUsed,   ///< they differ; the rescale is used
   NoScale,       ///< a map gives neither slope nor table
   MapsDisagree,  ///< two maps of one quantity give different values: there is no telling
+  UnitUnclear,   ///< a map names one unit by its code and another one in words
+  TableUnread,   ///< stored values mean something by a modality look-up table only
 };
 
 /// One image plane: a file, or a frame of a multi-frame file.
@@ -58,7 +60,7 @@ struct Frame {
   ScaleDoubt scaleDoubt = ScaleDoubt::None;
   std::string unit;  ///< of the values, in the words of base/map_unit.h where it is one of those; empty where unknown
   std::optional<MapQuantity> quantity;  ///< where a code says so
-  /// What may tell two images of one position apart, strongest first: {attribute, value}.
+  /// What may tell two images of one position apart, strongest first: {attribute, value}; and "words about values".
   std::vector<std::pair<std::string, std::string>> kinds;
 };
 

@@ -16,7 +16,7 @@ bool holdsAny(const std::string& text, std::initializer_list<const char*> words)
 std::string spaced(std::string text) {
   text = lowerCase(std::move(text));
   for (char& c : text)
-    if (c == '_' || c == '-') c = ' ';
+    if (c == '_' || c == '-' || c == '\\' || c == '(' || c == ')' || c == ',') c = ' ';
   return text;
 }
 
@@ -36,8 +36,13 @@ std::string inWords(MapQuantity quantity) {
 }
 
 std::optional<MapQuantity> quantityInWords(const std::string& description) {
-  const std::string text = spaced(description);
+  const std::string text = ' ' + spaced(description) + ' ';
   if (holdsAny(text, {"loss modulus", "storage modulus", "damping", "viscos", "strain", "attenuation"}))
+    return MapQuantity::Other;
+  // Parts of the complex modulus, and figures about a stiffness instead of the stiffness itself.
+  if (holdsAny(text, {" loss ", "imaginary", " imag ", " real shear", " real part", " compliance", "standard dev", " std ",
+                      " stdev", " sd ", " error", "uncertaint", " variance", "stiffness difference", "stiffness change",
+                      "modulus difference", " residual", "goodness"}))
     return MapQuantity::Other;
   if (holdsAny(text, {"young", "elastic modulus", "modulus of elasticity", "e modul", "emodul"}))
     return MapQuantity::YoungsModulus;

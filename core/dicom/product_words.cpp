@@ -86,11 +86,21 @@ const Word* lastWord(const std::string& text, bool elastographyOnly) {
   return last;
 }
 
+/// Whether the word stands for the unit of the values: not in "0-8 kPa", which is how they are shown, nor in "1/kPa".
+bool namesUnit(const std::string& text, const std::string& word) {
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t before = at == 0 ? std::string::npos : text.find_last_not_of(" _", at - 1);
+    const char c = before == std::string::npos ? ' ' : text[before];
+    if (c != '/' && (c < '0' || c > '9')) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::optional<std::string> unitInWords(const std::string& description) {
   const std::string text = lowerCase(description);
-  if (holds(text, "kpa")) return "kPa";
+  if (namesUnit(text, "kpa")) return "kPa";
   if (holds(text, "(pa)") || holds(text, "[pa]")) return "Pa";
   if (holds(text, "(m/s)") || holds(text, "[m/s]")) return "m/s";
   return std::nullopt;

@@ -128,6 +128,14 @@ bool setVendorRole(Series& s) {
   return true;
 }
 
+/// The part of the complex signal that an image holds, where it is not the magnitude; null where it is, or is not said.
+const char* partOfSignal(const Series& s, const std::string& type) {
+  const std::string all = type + '\\';
+  if (all.find("\\r\\") != std::string::npos || all.find("\\real\\") != std::string::npos) return "real";
+  if (all.find("\\i\\") != std::string::npos || all.find("\\imaginary\\") != std::string::npos) return "imaginary";
+  return s.acquired.phaseCoded ? "real, imaginary or phase" : nullptr;
+}
+
 void setByDescription(Series& s) {
   const std::string description = lowerCase(s.description);
   const std::string type = lowerCase(s.acquired.imageType);
@@ -147,6 +155,8 @@ void setByDescription(Series& s) {
       contradict(s, "its image type", "its description", byWords->role);
   } else if (derivedMre && (type.find("\\p\\") != std::string::npos || firstOf(description, {"phase"}) != nullptr)) {
     set(s, SeriesRole::Phase, "raw phase images of an elastography series");
+  } else if (const char* signal = partOfSignal(s, type)) {
+    set(s, SeriesRole::Other, std::string("it holds the ") + signal + " part of the signal, no picture of the anatomy");
   } else if (const char* mre = firstOf(all, {"mre", "elasto", "magnitude"})) {
     set(s, SeriesRole::Magnitude, because(mre));
   } else if (const char* part =
@@ -240,8 +250,11 @@ void setRoles(std::vector<Series>& volumes) {
       setGeRole(s, epi ? "epimre" : "fgremre", volumes.size());
     else if (!setVendorRole(s))
       setByDescription(s);
-    if (s.quantity && *s.quantity != MapQuantity::Other && s.role != SeriesRole::Stiffness)
+    const bool byCode = s.quantity && !s.diagnostics.contains(DiagnosticCode::QuantityByWords);
+    if (byCode && *s.quantity != MapQuantity::Other && s.role != SeriesRole::Stiffness)
       set(s, SeriesRole::Stiffness, "its code says that it holds " + inWords(*s.quantity));
+    if (s.role == SeriesRole::Stiffness && !s.quantity && quantityInWords(s.description) == MapQuantity::Other)
+      set(s, SeriesRole::Other, "its description says that it holds another quantity than a stiffness");
     if (s.role == SeriesRole::Stiffness) setUnitByWords(s);
     if (s.acquired.privateScale && (s.role == SeriesRole::Stiffness || s.role == SeriesRole::Confidence))
       tell(s, DiagnosticCode::PrivateScaleNotUsed, {{"factor", *s.acquired.privateScale}});

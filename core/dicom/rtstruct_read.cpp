@@ -133,7 +133,7 @@ StructureSet readData(DcmDataset& data) {
     }
     Structure& structure = set.structures[known->second];
     std::map<std::string, int> otherKinds;
-    int tooShort = 0;
+    int tooShort = 0, moved = 0;
     int index = 0;
     forItems(item, DCM_ContourSequence, [&](DcmItem& contourItem) {
       const std::string where = roi + ", contour " + std::to_string(++index);
@@ -143,6 +143,8 @@ StructureSet readData(DcmDataset& data) {
         return;
       }
       StructureContour contour = readContour(contourItem, where, set.warnings);
+      const std::string offset = shownText(contourItem, DCM_RETIRED_ContourOffsetVector);
+      moved += offset.find_first_of("123456789") != std::string::npos ? 1 : 0;
       contour.exclusiveOr = kind == "CLOSEDPLANAR_XOR";
       if (contour.points_lps_mm.cols() < 3)
         ++tooShort;
@@ -151,6 +153,10 @@ StructureSet readData(DcmDataset& data) {
     });
     for (const auto& [kind, many] : otherKinds)
       set.warnings.push_back(roi + ": " + std::to_string(many) + " contour(s) of type '" + kind + "' are left out");
+    if (moved > 0)
+      set.warnings.push_back(roi + ": " + std::to_string(moved) +
+                             " contour(s) name an offset (ContourOffsetVector), which is not applied: they count where "
+                             "their points are");
     if (tooShort > 0)
       set.warnings.push_back(roi + ": " + std::to_string(tooShort) + " contour(s) of fewer than 3 points are left out");
   });

@@ -8,6 +8,7 @@
 
 #include "base/map_unit.h"
 #include "base/text.h"
+#include "dicom/product_words.h"
 
 namespace glisson::dicom {
 namespace {
@@ -51,6 +52,21 @@ void takeUnit(const std::vector<SliceFacts>& slices, Series& series) {
                      " slices name no unit and have another scale than the others (" + listed(counts) + ")";
 }
 
+/// Young's modulus, where only words beside the description name it: it is read as three times the shear modulus. Other
+/// words there tell of the way that a map was computed.
+void takeQuantityByWords(const SliceFacts& first, Series& series) {
+  const ImageHeader& h = *first.header;
+  std::string about = h.imageType;
+  for (const auto& [what, words] : first.frame->kinds)
+    if (what == "words about values") about += ' ' + words;
+  const auto unit = mapUnit(series.unit.value_or(unitInWords(h.description).value_or("")));
+  if (!unit || unit->of != MapUnit::Of::Modulus || quantityInWords(h.description) ||
+      quantityInWords(about) != MapQuantity::YoungsModulus)
+    return;
+  series.quantity = MapQuantity::YoungsModulus;
+  tell(series, DiagnosticCode::QuantityByWords, {{"quantity", inWords(*series.quantity)}});
+}
+
 void takeQuantity(const std::vector<SliceFacts>& slices, Series& series) {
   std::set<std::string> names;
   std::size_t without = 0;
@@ -65,6 +81,7 @@ void takeQuantity(const std::vector<SliceFacts>& slices, Series& series) {
   if (without > 0 && series.quantity && *series.quantity != MapQuantity::ShearModulus)
     series.noScale = std::to_string(without) + " of its " + std::to_string(slices.size()) +
                      " slices do not say what they hold, the others hold " + *names.begin();
+  if (names.empty()) takeQuantityByWords(slices.front(), series);
   if (names.size() > 1) series.noScale = "its slices hold different quantities: " + *names.begin() + " and others";
 }
 
@@ -80,6 +97,10 @@ void takeScale(const std::vector<SliceFacts>& slices, Series& series) {
   }
   if (doubts.count(ScaleDoubt::MapsDisagree) > 0)
     series.noScale = "its real-world value maps give different values for one stored value";
+  if (doubts.count(ScaleDoubt::UnitUnclear) > 0)
+    series.noScale = "its real-world value map names one unit by its code and another one in words";
+  if (doubts.count(ScaleDoubt::TableUnread) > 0)
+    series.noScale = "its stored values mean something only by a modality look-up table (0028,3000), which is not read";
   if (doubts.count(ScaleDoubt::NoScale) > 0) tell(series, DiagnosticCode::MapWithoutScale, {});
   if (doubts.count(ScaleDoubt::MapUsed) > 0)
     tell(series, DiagnosticCode::ScalesDiffer,
@@ -118,9 +139,19 @@ void takeAcquisition(const std::vector<SliceFacts>& slices, Series& series) {
   a.references.assign(references.begin(), references.end());
 }
 
+/// Padding that only some of the slices tell.
+void takePadding(const std::vector<SliceFacts>& slices, Series& series) {
+  const auto with = std::count_if(slices.begin(), slices.end(),
+                                  [](const SliceFacts& s) { return s.header->padding.has_value(); });
+  if (with > 0 && static_cast<std::size_t>(with) < slices.size())
+    tell(series, DiagnosticCode::PaddingInPart,
+         {{"with", static_cast<std::int64_t>(with)}, {"slices", static_cast<std::int64_t>(slices.size())}});
+}
+
 }  // namespace
 
 void takeFacts(const std::vector<SliceFacts>& slices, Series& series) {
+  takePadding(slices, series);
   takeUnit(slices, series);
   takeQuantity(slices, series);
   takeScale(slices, series);

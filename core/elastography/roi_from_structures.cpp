@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <iterator>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -47,7 +50,14 @@ const dicom::Structure& choose(const dicom::StructureSet& set, const std::string
                                              {"number", static_cast<std::int64_t>(drawn.front()->number)}});
     if (drawn.size() == 1) fit = drawn;
   }
-  if (fit.size() == 1) return *fit.front();
+  if (fit.size() == 1) {
+    if (said != nullptr && number == 0 && name.empty() && !organNames(fit.front()->name))
+      said->add(DiagnosticCode::StructureByName,
+                {{"kind", std::string("structure")},
+                 {"number", static_cast<std::int64_t>(fit.front()->number)},
+                 {"that", std::string(set.structures.size() == 1 ? "there" : "with 'liver' in its name")}});
+    return *fit.front();
+  }
   const std::string wanted = number != 0    ? "of number " + std::to_string(number)
                              : name.empty() ? std::string("with 'liver' in its name")
                                             : "called '" + name.substr(0, 64) + "'";
@@ -80,6 +90,25 @@ std::string onlyFrame(const dicom::StructureSet& set) {
 
 }  // namespace
 
+bool organNames(const std::string& name) {
+  static const std::set<std::string> plain = {
+      "liver",  "leber",   "foie",    "higado",  "fegato",  "hepar",      "hepatic",  "parenchyma", "whole",  "organ",
+      "roi",    "voi",     "region",  "contour", "outline", "mask",       "segment",  "segmentation", "seg",  "lobe",
+      "left",   "right",   "inner",   "mre",     "mri",     "mr",         "ct",       "elastogram", "auto",   "manual",
+      "draft",  "final",   "reader",  "slice",   "of",      "interest",   "the",      "new",        "copy",   "corrected"};
+  std::string word;
+  for (const char c : lowerCase(name) + ' ') {
+    if (c >= 'a' && c <= 'z') {
+      word += c;
+      continue;
+    }
+    if (static_cast<unsigned char>(c) >= 0x80) return false;  // a word in letters that the list does not know
+    if (word.size() > 1 && !plain.contains(word)) return false;
+    word.clear();
+  }
+  return true;
+}
+
 roi::ContourStack roiFromStructures(const dicom::StructureSet& structures, const std::string& name, int number,
                                     Diagnostics* said) {
   const dicom::Structure& structure = choose(structures, name, number, said);
@@ -89,9 +118,14 @@ roi::ContourStack roiFromStructures(const dicom::StructureSet& structures, const
       structure.frameOfReferenceUid.empty() ? onlyFrame(structures) : structure.frameOfReferenceUid;
   result.seriesUid =
       structures.references.empty() ? structures.referencedSeriesUid : seriesIn(structures, result.frameOfReferenceUid);
+  std::int64_t twiceRound = 0;
   for (const dicom::StructureContour& contour : structure.contours) {
     roi::Polygon polygon;
     polygon.points_lps_mm = roi::distinctRing(contour.points_lps_mm);
+    if (auto once = roi::onceRound(polygon.points_lps_mm)) {
+      polygon.points_lps_mm = *std::move(once);
+      ++twiceRound;
+    }
     polygon.sopInstanceUid = contour.referencedSopInstanceUid;
     if (contour.exclusiveOr) polygon.combine = roi::Combine::Parity;
     if (polygon.points_lps_mm.cols() >= 3) result.polygons.push_back(std::move(polygon));
@@ -100,6 +134,8 @@ roi::ContourStack roiFromStructures(const dicom::StructureSet& structures, const
     throw BadInput("the structure '" + structure.name.substr(0, 64) +
                    "' has no contour with three distinct vertices (" + std::to_string(structure.contours.size()) +
                    " contours in all)");
+  if (said != nullptr && twiceRound > 0)
+    said->add(DiagnosticCode::OutlinesCrossThemselves, {{"count", twiceRound}, {"slices", twiceRound}});
   return result;
 }
 

@@ -18,6 +18,10 @@ namespace glisson::elastography {
 roi::ContourStack roiFromStructures(const dicom::StructureSet& structures, const std::string& name = {}, int number = 0,
                                     Diagnostics* said = nullptr);
 
+/// Whether a name says no more than that this is the liver, or a region of interest: words such as "liver", "ROI 1",
+/// "liver left lobe" and their kin; not "GTV liver", "body minus liver" or "spleen".
+bool organNames(const std::string& name);
+
 /// The reverse, for writing: polygons that count, drafts and repeated ones left out, holes as contours of their own.
 dicom::Structure toStructure(const roi::ContourStack& contours, int number);
 

@@ -81,6 +81,42 @@ void checkLists(const detail::TextHeader& h, const std::filesystem::path& file, 
 
 }  // namespace
 
+void completeMetaImage(const std::filesystem::path& file, Grid& grid, Diagnostics* doubts) {
+  const detail::TextHeader h = detail::readMetaHeader(file);
+  static const std::map<std::string, double> units = {{"", 1.0}, {"?", 1.0}, {"mm", 1.0}, {"um", 1e-3}, {"cm", 10.0}, {"m", 1e3}};
+  const auto unit = units.find(lowerCase(h.field("DistanceUnits")));
+  if (unit == units.end())
+    throw BadInput(quoted(file) + " gives lengths in '" + h.field("DistanceUnits").substr(0, 20) +
+                   "', which is no unit of length that is known here; save it in millimetres");
+  grid.spacing_mm *= unit->second;
+  grid.origin_lps_mm *= unit->second;
+  const auto slope = h.numbers("ElementToIntensityFunctionSlope"), offset = h.numbers("ElementToIntensityFunctionOffset");
+  const auto is = [](const auto& n, double plain) { return n && (n->empty() || (n->size() == 1 && (*n)[0] == plain)); };
+  if (!is(slope, 1.0) || !is(offset, 0.0))
+    throw BadInput(quoted(file) + " scales its values in its header (ElementToIntensityFunctionSlope or Offset), which is "
+                   "read by few programs and not here; save it with the values themselves");
+  if (doubts == nullptr) return;
+  if (!h.fields.contains("ElementSpacing") && !h.fields.contains("ElementSize"))
+    doubts->add(DiagnosticCode::VolumePlaceUnknown, {{"missing", std::string("ElementSpacing")}});
+  // A letter for the side from which each axis comes; ITK's axes, to the patient's left, back and head, are RAI.
+  std::string taken;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    Eigen::Index most = 0;
+    grid.direction.col(axis).cwiseAbs().maxCoeff(&most);
+    taken += (grid.direction(most, axis) > 0 ? "RAI" : "LPS")[most];
+  }
+  const std::string said = h.field("AnatomicalOrientation");
+  const bool known = said.size() == 3 && said.find_first_not_of("RLAPIS") == std::string::npos;
+  if (known && said != taken) doubts->add(DiagnosticCode::AxesContradicted, {{"said", said}, {"taken", taken}});
+}
+
+void doubtVoxelSize(const Grid& grid, Diagnostics* doubts) {
+  constexpr double least_mm = 0.02, most_mm = 200.0;
+  const double smallest = grid.spacing_mm.minCoeff(), largest = grid.spacing_mm.maxCoeff();
+  if (doubts == nullptr || (smallest >= least_mm && largest <= most_mm)) return;
+  doubts->add(DiagnosticCode::VoxelSizeOdd, {{"smallest_mm", smallest}, {"largest_mm", largest}});
+}
+
 void checkMetaImage(const std::filesystem::path& file, Diagnostics* doubts) {
   const detail::TextHeader h = detail::readMetaHeader(file);
   const auto damaged = [&file](const std::string& what) {

@@ -209,6 +209,7 @@ Volume<T> fromNifti(const std::filesystem::path& file, Diagnostics* doubts) {
   if (doubts != nullptr) doubts->add(nifti.doubts);
   Volume<T> volume;
   volume.grid = nifti.grid;
+  doubtVoxelSize(volume.grid, doubts);
   volume.values.resize(volume.grid.voxelCount());
   convertAny(types.at(nifti.datatype), nifti.bytes, volume.values, file, {nifti.slope, nifti.intercept});
   return volume;
@@ -234,6 +235,8 @@ Volume<T> read(const std::filesystem::path& file, Diagnostics* doubts) {
     Volume<T> volume;
     volume.grid = gridOf(*io, file);
     if (format == Format::Nrrd) detail::completeNrrd(nrrd, file, volume.grid, doubts);
+    if (format == Format::Meta) completeMetaImage(file, volume.grid, doubts);
+    doubtVoxelSize(volume.grid, doubts);
     const double bytes = static_cast<double>(volume.grid.voxelCount()) * io->GetComponentSize();
     const bool detached = file.extension() == ".nhdr" || file.extension() == ".mhd";
     const auto fileBytes = static_cast<double>(std::filesystem::file_size(file));

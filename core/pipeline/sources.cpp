@@ -106,19 +106,30 @@ void takeConfidence(const dicom::Series& series, const MapMeaning& meaning, Load
   }
 }
 
+/// By the code of its property.
+bool isLiver(const dicom::Segment& s) {
+  return s.propertyCode == "SCT:10200004" || s.propertyCode == "SRT:T-62000";
+}
+
 /// The segment that is asked for: by label number, by name, else the one called liver, else the only one.
-int segmentNumber(const dicom::SegmentationSet& set, const std::string& name, int label) {
+int segmentNumber(const dicom::SegmentationSet& set, const std::string& name, int label, Diagnostics& said) {
   if (label != 0) return label;
-  std::vector<int> found;
+  const auto doubt = [&](const dicom::Segment& s, const char* that) {
+    if (name.empty() && !isLiver(s) && !elastography::organNames(s.label))
+      said.add(DiagnosticCode::StructureByName, {{"kind", std::string("segment")},
+                                                 {"number", static_cast<std::int64_t>(s.number)},
+                                                 {"that", std::string(that)}});
+    return s.number;
+  };
+  std::vector<const dicom::Segment*> found;
   std::string there;
   for (const dicom::Segment& s : set.segments) {
     there += (there.empty() ? "" : ", ") + std::to_string(s.number) + " '" + s.label + "'";
-    const bool liver = s.propertyCode == "SCT:10200004" || s.propertyCode == "SRT:T-62000" ||
-                       lowerCase(s.label).find("liver") != std::string::npos;
-    if (name.empty() ? liver : lowerCase(s.label) == lowerCase(name)) found.push_back(s.number);
+    const bool liver = isLiver(s) || lowerCase(s.label).find("liver") != std::string::npos;
+    if (name.empty() ? liver : lowerCase(s.label) == lowerCase(name)) found.push_back(&s);
   }
-  if (found.size() == 1) return found.front();
-  if (name.empty() && set.segments.size() == 1) return set.segments.front().number;
+  if (found.size() == 1) return doubt(*found.front(), "with 'liver' in its name");
+  if (name.empty() && set.segments.size() == 1) return doubt(set.segments.front(), "there");
   throw BadInput(std::string("the segmentation has ") + (found.empty() ? "no" : "several") +
                  " segments that fit; it holds " + there + ": choose one by its number (--label) or name (--name)");
 }
@@ -265,7 +276,9 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
   } else if (dicom::isSegmentation(path)) {
     const dicom::SegmentationSet set = dicom::readSegmentation(path);
     append(out.warnings, set.warnings);
-    const int segment = segmentNumber(set, name, label);
+    Diagnostics said;
+    const int segment = segmentNumber(set, name, label, said);
+    tell(out, said);
     out.mask = dicom::maskOf(set, segment);
     out.frameOfReferenceUid = set.frameOfReferenceUid;
     out.origin = set.origin;
@@ -289,6 +302,12 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
     for (const roi::Polygon& p : out.contours->polygons)
       if (!p.sopInstanceUid.empty() && p.state == roi::PolygonState::Accepted)
         out.names.planes.push_back({p.points_lps_mm.rowwise().mean(), p.sopInstanceUid});
+  }
+  if (!name.empty() && !out.ofDicom && !(out.contours && lowerCase(out.contours->name) == lowerCase(name))) {
+    Diagnostics said;
+    said.add(DiagnosticCode::NameNotUsed,
+             {{"what", std::string(out.contours ? "a file of outlines" : "a mask or a surface")}});
+    tell(out, said);
   }
   if (label != 0 && !out.mask && !out.ofDicom)
     out.warnings.push_back("a label picks a value of a mask; these are contours: it was not used");

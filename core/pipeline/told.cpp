@@ -22,6 +22,46 @@ const retraction::Retractor* barOf(const Scene& scene) {
   return nullptr;
 }
 
+struct Plausible {
+  double least, most;
+};
+
+void tellImplausible(const char* what, double value, const char* unit, Plausible range, const char* usually,
+                     Diagnostics& said) {
+  if (value >= range.least && value <= range.most) return;
+  said.add(DiagnosticCode::ValueImplausible, {{"what", std::string(what)},
+                                              {"value", value},
+                                              {"unit", std::string(unit)},
+                                              {"usually", std::string(usually)}});
+}
+
+/// Numbers that can be computed with, and are most likely mistyped or in another unit. A box may be of any material, an
+/// organ is of tissue.
+void tellOfImplausible(const Scene& scene, Diagnostics& said) {
+  const bool organ = scene.geometry.kind != GeometrySpec::Kind::Box;
+  const retraction::Setup& s = scene.setup;
+  tellImplausible("the density", s.density.kgPerM3(), "kg/m3", organ ? Plausible{500, 1500} : Plausible{100, 25000},
+                  organ ? "soft tissue has (about 1060 kg/m3)" : "solids have", said);
+  const Plausible modulus = organ ? Plausible{0.1, 1000} : Plausible{1e-3, 1e9};
+  const char* usual = organ ? "a liver has (some 1 to 100 kPa)" : "solids have";
+  if (scene.material.kind == MaterialSpec::Kind::Uniform)
+    tellImplausible("the stiffness", scene.material.value_kPa, "kPa", modulus, usual, said);
+  if (scene.compare)
+    tellImplausible("the stiffness to compare with", scene.compare->value_kPa, "kPa", modulus, usual, said);
+  if (organ && s.poisson >= 0.0)
+    tellImplausible("Poisson's ratio", s.poisson, "(no unit)", {0.3, 0.5}, "soft tissue has (.45 to .499)", said);
+  for (const retraction::LoadSpec& load : s.loads) {
+    const auto* bar = std::get_if<retraction::Retractor>(&load);
+    if (bar == nullptr || !organ) continue;
+    tellImplausible("the bar's diameter", bar->diameter_mm, "mm", {3, 40}, "retractors have (about 10 mm)", said);
+    tellImplausible("the bar's length", bar->length_mm, "mm", {10, 200}, "retractors have (about 80 mm)", said);
+    if (bar->force_N)
+      tellImplausible("the bar's force", *bar->force_N, "N", {0.1, 100}, "retracts a liver (its weight is some 15 N)", said);
+    if (bar->travel_mm)
+      tellImplausible("the bar's travel", std::abs(*bar->travel_mm), "mm", {0.1, 150}, "a liver is moved by", said);
+  }
+}
+
 /// What of a scene its model and its kinematics pass over.
 void tellOfUnused(const Scene& scene, const Needs& needs, Diagnostics& said) {
   const retraction::Setup& s = scene.setup;
@@ -52,6 +92,7 @@ void tellOfUnused(const Scene& scene, const Needs& needs, Diagnostics& said) {
 Diagnostics toldOf(const Scene& scene) {
   const Needs needs(scene);
   Diagnostics said;
+  tellOfImplausible(scene, said);
   if (scene.setup.poisson < 0.0) said.add(DiagnosticCode::PoissonNegative, {{"poisson", scene.setup.poisson}});
   if (const auto refusal = retraction::patchTakenFor(scene.setup))
     said.add(DiagnosticCode::PatchTaken,

@@ -12,14 +12,9 @@ std::int64_t number(std::size_t n) {
   return static_cast<std::int64_t>(n);
 }
 
-double areaOf(const Eigen::Matrix2Xd& ring) {
-  double area = 0.0;
-  detail::forTrapezoids({ring}, [&area](const std::vector<bool>& in, double a) { area += in[0] ? a : 0.0; });
-  return area;
-}
-
 struct Counts {
   std::size_t repeated = 0, repeatedOn = 0, overlapping = 0, overlappingOn = 0, cancelling = 0, hollow = 0, specks = 0;
+  std::size_t crossing = 0, crossingOn = 0;
 
   void add(const ContourStack& contours, const std::vector<std::size_t>& members, const image::Grid& grid) {
     std::vector<Eigen::Matrix2Xd> rings;
@@ -34,11 +29,16 @@ struct Counts {
     if (rings.empty()) return;
     constexpr double speck_pixels = 0.25;
     bool large = false;
+    const std::size_t before = crossing;
     for (const Eigen::Matrix2Xd& ring : rings) {
-      const bool speck = areaOf(ring) < speck_pixels * grid.spacing_mm.head<2>().prod();
+      const detail::Windings w = detail::windingsOf(ring);
+      const double speck_mm2 = speck_pixels * grid.spacing_mm.head<2>().prod();
+      if (std::max(w.more, w.against) > speck_mm2) ++crossing;
+      const bool speck = w.odd < speck_mm2;
       specks += speck ? 1 : 0;
       large = large || !speck;
     }
+    crossingOn += crossing > before ? 1 : 0;
     const Arrangement arrangement = arrange(rings, flips);
     repeated += arrangement.repeated;
     repeatedOn += arrangement.repeated > 0 ? 1 : 0;
@@ -81,6 +81,9 @@ Diagnostics outlineDoubts(const ContourStack& contours, const image::Grid& grid,
   if (drawnHere && !slices.beyond.empty())
     doubts.add(DiagnosticCode::OutlinesBeyond,
                {{"count", number(slices.beyond.size())}, {"all", number(contours.polygons.size())}});
+  if (counts.crossing > 0)
+    doubts.add(DiagnosticCode::OutlinesCrossThemselves,
+               {{"count", number(counts.crossing)}, {"slices", number(counts.crossingOn)}});
   if (counts.specks > 0) doubts.add(DiagnosticCode::OutlineSpecks, {{"count", number(counts.specks)}});
   return doubts;
 }

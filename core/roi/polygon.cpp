@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "image/morphology.h"
+#include "roi/arrangement.h"
 #include "roi/plane.h"
 
 namespace glisson::roi {
@@ -48,6 +49,16 @@ Eigen::Matrix3Xd distinctRing(const Eigen::Matrix3Xd& points) {
   Eigen::Matrix3Xd ring(3, static_cast<Eigen::Index>(kept.size()));
   for (std::size_t i = 0; i < kept.size(); ++i) ring.col(static_cast<Eigen::Index>(i)) = points.col(kept[i]);
   return ring;
+}
+
+std::optional<Eigen::Matrix3Xd> onceRound(const Eigen::Matrix3Xd& ring) {
+  const Eigen::Index half = ring.cols() / 2;
+  if (ring.cols() % 2 != 0 || half < 3) return std::nullopt;
+  const double farthest_mm = (ring.leftCols(half) - ring.rightCols(half)).colwise().norm().maxCoeff();
+  // Of an outline as small as that nothing is repeated, but turned back on itself.
+  const double size_mm = (ring.rowwise().maxCoeff() - ring.rowwise().minCoeff()).norm();
+  if (farthest_mm > repeatedWithin_mm || size_mm < 4.0 * repeatedWithin_mm) return std::nullopt;
+  return ring.leftCols(half).eval();
 }
 
 bool selfCrosses(const Polygon& polygon) {

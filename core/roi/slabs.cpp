@@ -1,5 +1,8 @@
 #include "roi/detail/slabs.h"
 
+#include <cstdlib>
+#include <utility>
+
 namespace glisson::roi::detail {
 namespace {
 
@@ -9,6 +12,29 @@ void addCrossing(const Edge& a, const Edge& b, std::vector<double>& heights) {
   if (cross == 0.0) return;
   const double t = (d.x() * s.y() - d.y() * s.x()) / cross;
   if (t > 0.0 && t < 1.0) heights.push_back(a.low.y() + t * r.y());
+}
+
+/// 1 where the ring's edge from that vertex on rises, -1 where it comes down.
+struct DirectedEdge {
+  Edge edge;
+  int rises = 1;
+};
+
+std::vector<DirectedEdge> directedEdgesOf(const Eigen::Matrix2Xd& ring) {
+  std::vector<DirectedEdge> edges;
+  for (Eigen::Index v = 0; v < ring.cols(); ++v) {
+    DirectedEdge e{{ring.col(v), ring.col((v + 1) % ring.cols()), 0}, 1};
+    if (e.edge.low.y() == e.edge.high.y()) continue;
+    if (e.edge.low.y() > e.edge.high.y()) {
+      std::swap(e.edge.low, e.edge.high);
+      e.rises = -1;
+    }
+    edges.push_back(e);
+  }
+  std::stable_sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
+    return a.edge.low.y() < b.edge.low.y();
+  });
+  return edges;
 }
 
 }  // namespace
@@ -37,6 +63,36 @@ std::vector<double> slabHeights(const std::vector<Edge>& sorted) {
   std::sort(heights.begin(), heights.end());
   heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
   return heights;
+}
+
+Windings windingsOf(const Eigen::Matrix2Xd& ring) {
+  const std::vector<DirectedEdge> sorted = directedEdgesOf(ring);
+  const std::vector<double> heights = slabHeights(edgesOf({ring}));
+  double left = 0.0, right = 0.0;
+  Windings w;
+  std::vector<const DirectedEdge*> active;
+  std::vector<std::pair<double, int>> row;
+  std::size_t next = 0;
+  for (std::size_t h = 0; h + 1 < heights.size(); ++h) {
+    const double bottom = heights[h], top = heights[h + 1];
+    std::erase_if(active, [&](const DirectedEdge* e) { return e->edge.high.y() <= bottom; });
+    while (next < sorted.size() && sorted[next].edge.low.y() <= bottom) active.push_back(&sorted[next++]);
+    row.clear();
+    for (const DirectedEdge* e : active)
+      if (e->edge.high.y() > bottom) row.emplace_back(e->edge.xAt(0.5 * (bottom + top)), e->rises);
+    std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    int winding = 0;
+    for (std::size_t e = 0; e + 1 < row.size(); ++e) {
+      winding += row[e].second;
+      const double area = (row[e + 1].first - row[e].first) * (top - bottom);
+      left += winding > 0 ? area : 0.0;
+      right += winding < 0 ? area : 0.0;
+      w.odd += winding % 2 != 0 ? area : 0.0;
+      w.more += std::abs(winding) > 1 ? area : 0.0;
+    }
+  }
+  w.against = std::min(left, right);
+  return w;
 }
 
 }  // namespace glisson::roi::detail

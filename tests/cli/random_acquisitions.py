@@ -23,6 +23,7 @@ class Case:
     roi: object = None
     arguments: list = dataclasses.field(default_factory=list)
     voxels: list = dataclasses.field(default_factory=list)  # kPa of the shear modulus, of each voxel that counts
+    unmasked: list = dataclasses.field(default_factory=list)  # the same where no confidence map is used
     said: list = dataclasses.field(default_factory=list)
     or_refused: list = dataclasses.field(default_factory=list)
     only_refused: bool = False
@@ -293,7 +294,6 @@ def region(w, images, there):
     if STYLES[style]:
         case.tell(STYLES[style])
     kinds, contours, pixels = set(), [], {}
-    slices = sorted(there)
     for k in range(SLICES):
         if k not in images or (doubt == "sparse" and k == 2):
             continue
@@ -316,7 +316,7 @@ def region(w, images, there):
     rois = [(1, "Spleen", own, contours[:1]), (2, "Liver", own, contours)]
     path = small.structures(case.folder / "roi.dcm", rois, list(images.values()), [own] if own else [])
     case.roi = rewritten(path, kinds.pop())
-    return {k: p for k, p in pixels.items() if k in slices}
+    return pixels
 
 
 def rewritten(path, kind):
@@ -339,6 +339,9 @@ def draw(seed, folder):
     pixels = region(w, images, there)
     for k in sorted(pixels):
         for i, j in sorted(pixels[k]):
-            if values[j][i] is not None and trusted[j][i]:
+            if values[j][i] is None:
+                continue
+            w.case.unmasked.append(values[j][i])
+            if k in there and trusted[j][i]:
                 w.case.voxels.append(values[j][i])
     return w.case

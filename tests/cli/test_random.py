@@ -36,13 +36,13 @@ def fault(seed):
     for codes in case.said:
         if not any(code in codes or any(" " in word and word in text for word in codes) for code, text in told):
             return f"case {seed} ({about}): none of {sorted(codes)} is told, but {told}"
-    # What was asked about rather than taken is no answer.
-    asked = {"partner-ambiguous", "partner-elsewhere"} & {code for code, _ in told}
-    if not asked:
-        n, mean = answer["pooled"]["n"], answer["shear_mean_kPa"]
-        right = sum(case.voxels) / len(case.voxels) if case.voxels else None
-        if n != len(case.voxels) or (right and abs(mean - right) > 2e-3 * right):
-            return f"case {seed} ({about}): n {n}, mean {mean}; {len(case.voxels)}, {right} are right; told: {told}"
+    # Where a confidence map was asked about rather than taken, every voxel of the region counts.
+    asked = answer["sources"]["confidence"] is None and {"partner-ambiguous", "partner-elsewhere"} & {c for c, _ in told}
+    voxels = case.unmasked if asked else case.voxels
+    n, mean = answer["pooled"]["n"], answer["shear_mean_kPa"]
+    right = sum(voxels) / len(voxels) if voxels else None
+    if n != len(voxels) or (right and abs(mean - right) > 2e-3 * right):
+        return f"case {seed} ({about}): n {n}, mean {mean}; {len(voxels)}, {right} are right; told: {told}"
     if not case.said and told:
         return f"case {seed} ({about}): nothing is doubtful, but {told} is told"
     return None

@@ -134,7 +134,7 @@ void check(const ImageHeader& h, std::uint64_t fileBytes) {
     const Frame& f = h.frames[n];
     if (f.number != static_cast<int>(n) || !isUnit(f.row) || !isUnit(f.column) || f.rowSpacing_mm <= 0.0 ||
         f.columnSpacing_mm <= 0.0 || f.map < -1 || f.map >= static_cast<int>(h.maps.size()) ||
-        f.scaleDoubt > ScaleDoubt::MapsDisagree || f.quantity.value_or(MapQuantity::Other) > MapQuantity::Other)
+        f.scaleDoubt > ScaleDoubt::TableUnread || f.quantity.value_or(MapQuantity::Other) > MapQuantity::Other)
       WireReader::fail();
   }
 }

@@ -21,6 +21,13 @@ std::vector<Edge> edgesOf(const std::vector<Eigen::Matrix2Xd>& rings);
 /// Heights of all ends and of all crossings, ascending, each once. Expects the order of edgesOf.
 std::vector<double> slabHeights(const std::vector<Edge>& sorted);
 
+/// Areas that a ring runs round, mm²: an odd number of times, twice or more, and the smaller one of those that it runs
+/// round to the left and to the right.
+struct Windings {
+  double odd = 0.0, more = 0.0, against = 0.0;
+};
+Windings windingsOf(const Eigen::Matrix2Xd& ring);
+
 /// Calls visit(in, area_mm2) for every trapezoid that lies between two edges of a slab; in[r] tells whether it lies
 /// inside ring r (even-odd).
 template <typename Visit>
