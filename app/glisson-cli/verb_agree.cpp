@@ -33,6 +33,21 @@ Json toJson(const elastography::Correlation& c) {
   return {{"value", orNull(c.value)}, {"low", orNull(c.low)}, {"high", orNull(c.high)}};
 }
 
+Json toJson(const elastography::Interval& i) {
+  return {{"value", orNull(i.value)}, {"se", orNull(i.se)}, {"ci95", {orNull(i.low), orNull(i.high)}}};
+}
+
+/// Keys as in the agreement itself.
+Json toJson(const pipeline::ReaderIntervals& i) {
+  Json j = {{"slices", i.slices},
+            {"dice", toJson(i.dice)},
+            {"jaccard", toJson(i.jaccard)},
+            {"volume_difference_mL", toJson(i.volumeDifference_mL)},
+            {"volume_difference_percent", toJson(i.volumeDifference_percent)}};
+  if (i.stiffnessDifference_kPa) j["stiffness_difference_kPa"] = toJson(*i.stiffnessDifference_kPa);
+  return j;
+}
+
 Json overCases(const std::optional<elastography::ReaderReliability>& reliability,
                const std::optional<elastography::BlandAltman>& limits) {
   Json j;
@@ -63,8 +78,12 @@ int agree(Arguments a, const Context& context) {
   for (const pipeline::ReadersOfCase& c : study.cases) {
     Json one = {{"case", c.name}, {"volume_mL", c.volume_mL}};
     if (!c.stiffness_kPa.empty()) one["mean_stiffness_kPa"] = c.stiffness_kPa;
-    for (const roi::Agreement& g : c.agreement) {
+    for (const elastography::Interval& mean : c.stiffnessMean_kPa)
+      one["mean_stiffness_uncertainty"].push_back(toJson(mean));
+    for (std::size_t r = 0; r < c.agreement.size(); ++r) {
+      const roi::Agreement& g = c.agreement[r];
       one["with_first"].push_back(toJson(g));
+      one["with_first"].back()["by_slices"] = toJson(c.intervals[r]);
       text << c.name << "  Dice " << g.dice << ", Jaccard " << g.jaccard << ", Hausdorff " << g.hausdorff_mm
            << " mm (95 %: " << g.hausdorff95_mm << "), mean distance " << g.meanSurfaceDistance_mm << " mm, volume "
            << g.volumeA_mL << " and " << g.volumeB_mL << " mL\n";

@@ -19,7 +19,7 @@ struct Arguments {
   std::vector<double> encodings;
   inversion::InversionOptions options;
   std::filesystem::path mask;
-  std::string filter = "highpass", unwrap = "auto";
+  std::string filter = "auto", method = "auto", unwrap = "auto";
   double radiansPerUnit = 0.0, confidence = defaults::confidenceThreshold;
 };
 
@@ -34,6 +34,17 @@ Json statistics(const inversion::Inversion& r, const image::ScalarVolume& values
   const auto orNull = [](double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); };
   return {
       {"n", s.n}, {"mean_kPa", orNull(s.mean_kPa)}, {"median_kPa", orNull(s.median_kPa)}, {"sd_kPa", orNull(s.sd_kPa)}};
+}
+
+const char* nameOf(inversion::BulkFilter filter) {
+  switch (filter) {
+    case inversion::BulkFilter::Auto: return "auto";
+    case inversion::BulkFilter::None: return "none";
+    case inversion::BulkFilter::Local: return "local";
+    case inversion::BulkFilter::HighPass: return "highpass";
+    case inversion::BulkFilter::Curl: return "curl";
+  }
+  return "";
 }
 
 /// What makes statistics of few voxels doubtful, in words; nothing where there are enough.
@@ -71,8 +82,13 @@ int invert(Arguments a, const Context& context) {
   Diagnostics diagnostics;
   if (!a.mask.empty()) waveOptions.mask = image::readMask(a.mask, 0, &diagnostics);
   a.options.filter = a.filter == "curl"   ? inversion::BulkFilter::Curl
-                     : a.filter == "none" ? inversion::BulkFilter::None
-                                          : inversion::BulkFilter::HighPass;
+                     : a.filter == "none"  ? inversion::BulkFilter::None
+                     : a.filter == "local" ? inversion::BulkFilter::Local
+                     : a.filter == "auto"  ? inversion::BulkFilter::Auto
+                                           : inversion::BulkFilter::HighPass;
+  a.options.method = a.method == "local-waves" ? inversion::Method::LocalWaves
+                     : a.method == "laplacian" ? inversion::Method::Laplacian
+                                               : inversion::Method::Auto;
   inversion::Waves waves = inversion::firstHarmonic(phases.directions, waveOptions, progress.part(0.3, 0.5));
   Json j = {{"frequency_Hz", a.options.frequency_Hz},
             {"offsets", phases.directions.front().offsets_rad.size()},
@@ -83,11 +99,16 @@ int invert(Arguments a, const Context& context) {
   double noise_rad = 0.0;
   for (const auto& d : waves.directions) noise_rad = std::max(noise_rad, d.noise_rad);
   const inversion::Inversion r = inversion::invert(std::move(waves), a.options, progress.part(0.5, 1.0));
-  j["inversion"] = {{"dimensions", r.used.dimensions}, {"filter", a.filter},
+  j["inversion"] = {{"dimensions", r.used.dimensions},
+                    {"method", r.used.method == inversion::Method::LocalWaves ? "local-waves" : "laplacian"},
+                    {"filter", nameOf(r.used.filter)},
                     {"window_mm", r.used.window_mm},   {"averaging_mm", r.used.averaging_mm},
                     {"cutoff_mm", r.used.cutoff_mm},   {"density_kg_m3", r.used.density_kg_m3}};
   j["voxels_resolved"] = r.resolved;
   j["confidence_threshold"] = a.confidence;
+  j["confidence_means"] =
+      r.confidenceMeans == inversion::ConfidenceMeaning::ProbabilityWithin ? "probability-within-19-percent" : "explained";
+  if (r.used.method == inversion::Method::LocalWaves) j["correlated_voxels"] = r.correlatedVoxels;
   j["quantity"] = "shear";
   j["stiffness"] = statistics(r, r.magnitude_kPa, a.confidence);
   j["storage"] = statistics(r, r.storage_kPa, a.confidence);
@@ -133,12 +154,14 @@ void addInvert(CLI::App& app, Context& context) {
   verb->add_option("--encoding", a->encodings, "x y z (LPS) of every direction, for the curl");
   verb->add_option("--radians-per-unit", a->radiansPerUnit, "of stored values, where they do not tell");
   verb->add_option("--mask", a->mask, "voxels with signal; else found from the noise in time");
-  verb->add_option("--filter", a->filter, "what takes compression away")
-      ->check(CLI::IsMember({"highpass", "curl", "none"}));
+  verb->add_option("--method", a->method, "auto is laplacian; local-waves slice by slice only")
+      ->check(CLI::IsMember({"auto", "local-waves", "laplacian"}));
+  verb->add_option("--filter", a->filter, "what takes compression away; auto: local with local waves, highpass with the laplacian")
+      ->check(CLI::IsMember({"auto", "local", "highpass", "curl", "none"}));
   verb->add_option("--unwrap", a->unwrap, "phase unwrapping")->check(CLI::IsMember({"auto", "temporal", "quality"}));
   verb->add_option("--dimensions", a->options.dimensions, "2: slice by slice, 3: in space, 0: by slice distance")
       ->check(CLI::IsMember({0, 2, 3}));
-  verb->add_option("--window", a->options.window_mm, "radius of the local polynomial, mm; 0: from the frequency");
+  verb->add_option("--window", a->options.window_mm, "radius of the window, mm; 0: from the frequency");
   verb->add_option("--averaging", a->options.averaging_mm, "radius of pooling, mm; 0: from the frequency");
   verb->add_option("--cutoff", a->options.cutoff_mm, "wavelength that the high-pass halves, mm; 0: from the frequency");
   verb->add_option("--density", a->options.density_kg_m3, "kg/m3")->check(CLI::PositiveNumber);

@@ -47,6 +47,22 @@ Json toJson(const elastography::Statistics& s) {
   return j;
 }
 
+Json toJson(const elastography::Interval& i) {
+  return {{"se_kPa", orNull(i.se)}, {"ci95_kPa", {orNull(i.low), orNull(i.high)}}};
+}
+
+/// The larger one of both, and each way.
+Json toJson(const elastography::MeanInterval& u) {
+  Json j = toJson(u.mean);
+  j["by_correlation"] = {{"length_mm", u.correlation.length_mm},
+                         {"exponent", u.correlation.exponent},
+                         {"effective_voxels", u.correlation.effective},
+                         {"se_kPa", orNull(u.correlation.se_kPa)}};
+  j["by_slices"] = toJson(u.bySlices);
+  j["by_slices"]["slices"] = u.slices;
+  return j;
+}
+
 Json toJson(const elastography::Registration& r) {
   Json rows = Json::array();
   for (int i = 0; i < 4; ++i)
@@ -169,6 +185,7 @@ int measure(const Arguments& a, const Context& context) {
   j["mean_se_kPa"] = orNull(m.uncertainty.se_kPa);
   j["mean_ci95_kPa"] = {orNull(m.uncertainty.low_kPa), orNull(m.uncertainty.high_kPa)};
   j["correlated_voxels"] = m.uncertainty.correlatedVoxels;
+  j["mean_uncertainty"] = toJson(m.interval);
   if (registration) j["registration"] = toJson(*registration);
   j["area_weighted_mean_kPa"] = orNull(m.areaWeightedMean_kPa);
   j["youngs_mean_kPa"] = orNull(m.youngs_mean_kPa);

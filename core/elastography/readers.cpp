@@ -1,12 +1,12 @@
 #include "elastography/readers.h"
 
 #include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "base/error.h"
+#include "elastography/bootstrap.h"
 
 namespace glisson::elastography {
 namespace {
@@ -16,10 +16,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Quantile of the F distribution.
 double quantile(double p, double numerator, double denominator) {
   return boost::math::quantile(boost::math::fisher_f(numerator, denominator), p);
-}
-
-double quantileT(double p, double freedom) {
-  return boost::math::quantile(boost::math::students_t(freedom), p);
 }
 
 /// Interval of (F − 1) / (F + k − 1), the form of ICC(1,1) and ICC(3,1).

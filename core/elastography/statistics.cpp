@@ -239,6 +239,7 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
   m.pooled = statisticsOf(all, voxelArea_mm2);
   m.pooled.n_before_mask = before;
   m.uncertainty = meanUncertainty(map.values_kPa, counts);
+  m.interval = meanInterval(map.values_kPa, counts);
   m.areaWeightedMean_kPa = weighted / weights;
   const bool shear = map.quantity == StiffnessQuantity::Shear;
   const double mean_kPa = m.pooled.mean_kPa;

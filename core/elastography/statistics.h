@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "elastography/mean_interval.h"
 #include "elastography/stiffness_map.h"
 
 namespace glisson::elastography {
@@ -47,6 +48,7 @@ struct Measurement {
   StiffnessQuantity quantity = StiffnessQuantity::Shear;  ///< of every *_kPa below but youngs and shear
   Statistics pooled;
   MeanUncertainty uncertainty;          ///< of the pooled mean
+  MeanInterval interval;                ///< of the pooled mean, by correlation length and by slices
   std::vector<SliceStatistics> slices;  ///< slices with region-of-interest voxels, in order of k
   double areaWeightedMean_kPa = 0.0;    ///< Σ (mean_i area_i) / Σ area_i over slices
   double youngs_mean_kPa = 0.0;         ///< pooled mean as E = 2 (1 + ν) µ

@@ -8,7 +8,9 @@ namespace glisson::inversion {
 /// All of these are linear and the same everywhere, so that a shear wave stays a wave of the same wavenumber; noise
 /// goes the same way.
 enum class BulkFilter {
+  Auto,  ///< Local with local waves, HighPass with the Laplacian
   None,
+  Local,     ///< with local waves only: motion that is affine across a window is fitted beside the wave
   HighPass,  ///< minus a Gaussian mean over the slice's masked voxels: halves a wave of the cutoff wavelength
   Curl       ///< needs three directions: ∇ × u has no compression in it. In the plane its normal component only
 };

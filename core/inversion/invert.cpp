@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/quantity.h"
 #include "image/morphology.h"
+#include "inversion/detail/local_waves.h"
 #include "inversion/detail/window.h"
 
 namespace glisson::inversion {
@@ -17,6 +18,12 @@ namespace {
 using Complex = std::complex<double>;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr double leastRoom = 0.5;  // of the neighbours that are pooled
+constexpr double meaningfulChange = 0.19;  // repeatability coefficient of the stiffness of a liver [qiba2022mre]
+
+/// Of a normal error with a relative standard deviation.
+double probabilityWithin(double part, double deviation) {
+  return deviation > 0.0 ? std::erf(part / (std::numbers::sqrt2 * deviation)) : 1.0;
+}
 
 InversionOptions completed(const InversionOptions& given, const image::Grid& grid) {
   if (!(given.frequency_Hz > 0.0 && given.frequency_Hz < 1e5))
@@ -29,16 +36,61 @@ InversionOptions completed(const InversionOptions& given, const image::Grid& gri
   InversionOptions o = given;
   const double wavelength_mm = 1e3 * std::sqrt(defaults::atlasShear.kPa() * 1e3 / o.density_kg_m3) / o.frequency_Hz;
   const double pixel_mm = grid.spacing_mm.head<2>().maxCoeff();
-  if (o.window_mm <= 0.0) o.window_mm = std::max(wavelength_mm / 4.0, 2.0 * pixel_mm);
-  if (o.averaging_mm <= 0.0) o.averaging_mm = wavelength_mm / 6.0;
-  if (o.cutoff_mm <= 0.0) o.cutoff_mm = 6.0 * wavelength_mm;
+  const double inSpace_mm = o.window_mm > 0.0 ? o.window_mm : std::max(wavelength_mm / 4.0, 2.0 * pixel_mm);
   if (o.dimensions == 0) {
-    const bool dense = grid.spacing_mm.z() <= o.window_mm / 2.0;
-    const bool many = (grid.size.z() - 1) * grid.spacing_mm.z() >= 3.0 * o.window_mm;
+    const bool dense = grid.spacing_mm.z() <= inSpace_mm / 2.0;
+    const bool many = (grid.size.z() - 1) * grid.spacing_mm.z() >= 3.0 * inSpace_mm;
     o.dimensions = dense && many ? 3 : 2;
   }
+  if (o.method == Method::Auto) o.method = Method::Laplacian;
+  const bool slices = o.method == Method::LocalWaves;
+  if (slices && o.dimensions != 2)
+    throw BadInput("local waves are fitted slice by slice only; take 2 dimensions, or the Laplacian");
+  if (o.window_mm <= 0.0) o.window_mm = slices ? std::max(wavelength_mm / 2.0, 4.0 * pixel_mm) : inSpace_mm;
+  if (o.averaging_mm <= 0.0) o.averaging_mm = slices ? o.window_mm / 2.0 : wavelength_mm / 6.0;
+  if (o.cutoff_mm <= 0.0) o.cutoff_mm = 3.0 * wavelength_mm;
+  if (o.filter == BulkFilter::Auto) o.filter = slices ? BulkFilter::Local : BulkFilter::HighPass;
+  if (o.filter == BulkFilter::Local && !slices)
+    throw BadInput("motion that is affine across a window is fitted beside local waves only; with the Laplacian take the "
+                   "high-pass filter or the curl");
   return o;
 }
+
+/// Radius of the window that curl is taken in.
+double curlRadius_mm(const InversionOptions& o, const image::Grid& grid) {
+  return o.method == Method::LocalWaves ? std::max(o.window_mm / 4.0, grid.spacing_mm.head<2>().maxCoeff()) : o.window_mm / 2.0;
+}
+
+/// Maps without a value, and how a squared wavenumber goes into them.
+class Maps {
+ public:
+  Maps(Inversion& out, const image::Grid& grid, bool spread) : out_(out) {
+    const image::ScalarVolume nothing(grid, nan);
+    out.magnitude_kPa = out.storage_kPa = out.loss_kPa = out.shear_kPa = nothing;
+    if (spread) out.spread_kPa = nothing;
+    out.confidence = image::ScalarVolume(grid);
+    const double omega = 2.0 * std::numbers::pi * out.used.frequency_Hz;
+    // ρω²/q: kg/m³ · 1/s² · mm² = 1e-6 Pa = 1e-9 kPa.
+    inertia_ = out.used.density_kg_m3 * omega * omega * 1e-9;
+  }
+
+  void put(std::size_t v, Complex q_mm2, double confidence, double relativeVariance) {
+    const Complex modulus_kPa = inertia_ / q_mm2;
+    const double realWavenumber = std::sqrt(q_mm2).real();
+    out_.magnitude_kPa.values[v] = static_cast<float>(std::abs(modulus_kPa));
+    out_.storage_kPa.values[v] = static_cast<float>(modulus_kPa.real());
+    out_.loss_kPa.values[v] = static_cast<float>(modulus_kPa.imag());
+    out_.shear_kPa.values[v] = static_cast<float>(inertia_ / (realWavenumber * realWavenumber));
+    out_.confidence.values[v] = static_cast<float>(std::clamp(confidence, 0.0, 1.0));
+    // |δ|q||² is half of |δq|²: errors have no preferred phase.
+    if (!out_.spread_kPa.values.empty())
+      out_.spread_kPa.values[v] = static_cast<float>(std::abs(modulus_kPa) * std::sqrt(0.5 * relativeVariance));
+  }
+
+ private:
+  Inversion& out_;
+  double inertia_ = 0.0;
+};
 
 /// A wave or noise field and its Laplacian after the local fit.
 struct Fitted {
@@ -169,21 +221,10 @@ void warn(Inversion& out, int directions) {
     out.warnings.push_back("one motion-encoding direction: where this component vanishes there is no stiffness");
 }
 
-}  // namespace
-
-Inversion invert(Waves waves, const InversionOptions& options, const Progress& progress) {
-  if (waves.directions.empty()) throw BadArgument("invert: there is no wave");
-  Inversion out;
-  out.warnings = waves.warnings;
-  out.used = completed(options, waves.grid);
-  const int given = static_cast<int>(waves.directions.size());
+/// u and ∇²u from the same local polynomial.
+void byLaplacian(const Waves& waves, Inversion& out, const Progress& progress) {
   const image::Grid& grid = waves.grid;
   const Stencil stencil(grid.spacing_mm, out.used.window_mm, out.used.dimensions);
-  out.mask = waves.mask;
-  if (out.used.filter == BulkFilter::HighPass) highPass(waves, out.used.cutoff_mm, progress.part(0.0, 0.3));
-  if (out.used.filter == BulkFilter::Curl)
-    curl(waves, out.used.window_mm / 2.0, out.used.dimensions, progress.part(0.0, 0.3));
-
   const detail::Window window(grid, stencil);
   const image::Mask inner = window.complete(waves.mask);
   if (image::count(inner) == 0)
@@ -191,24 +232,15 @@ Inversion invert(Waves waves, const InversionOptions& options, const Progress& p
                    " mm; take a smaller window or a larger mask");
   std::vector<FittedDirection> fitted;
   for (std::size_t d = 0; d < waves.directions.size(); ++d) {
-    progress.report(0.3 + 0.4 * static_cast<double>(d) / static_cast<double>(waves.directions.size()),
-                    "local polynomials");
+    progress.report(0.6 * static_cast<double>(d) / static_cast<double>(waves.directions.size()), "local polynomials");
     FittedDirection f{fit(waves.directions[d].wave, stencil, window, inner, progress), {}};
     for (const ComplexVolume& n : waves.directions[d].noise)
       f.noise.push_back(fit(n, stencil, window, inner, progress));
     fitted.push_back(std::move(f));
   }
-
-  progress.report(0.7, "inverting");
-  const image::ScalarVolume nothing(grid, nan);
-  out.magnitude_kPa = out.storage_kPa = out.loss_kPa = out.shear_kPa = nothing;
   const bool noise = !fitted.front().noise.empty();
-  if (noise) out.spread_kPa = nothing;
-  out.confidence = image::ScalarVolume(grid);
+  Maps maps(out, grid, noise);
   const std::vector<Eigen::Vector3i> around = neighbourhood(grid, out.used.averaging_mm, out.used.dimensions);
-  const double omega = 2.0 * std::numbers::pi * out.used.frequency_Hz;
-  // ρω²/q: kg/m³ · 1/s² · mm² = 1e-6 Pa = 1e-9 kPa.
-  const double inertia = out.used.density_kg_m3 * omega * omega * 1e-9;
   const auto nx = static_cast<std::size_t>(grid.size.x()), ny = static_cast<std::size_t>(grid.size.y());
   window.forEach(inner, progress, [&](std::size_t v) {
     const Eigen::Vector3i at(static_cast<int>(v % nx), static_cast<int>(v / nx % ny), static_cast<int>(v / (nx * ny)));
@@ -219,18 +251,46 @@ Inversion invert(Waves waves, const InversionOptions& options, const Progress& p
     const Estimate e = pool(fitted, voxels);
     const auto q = stencil.squaredWavenumber(e.ratio);
     if (!q || e.ratio == 0.0) return;
-    const Complex modulus_kPa = inertia / *q;
-    const double realWavenumber = std::sqrt(*q).real();
-    out.magnitude_kPa.values[v] = static_cast<float>(std::abs(modulus_kPa));
-    out.storage_kPa.values[v] = static_cast<float>(modulus_kPa.real());
-    out.loss_kPa.values[v] = static_cast<float>(modulus_kPa.imag());
-    out.shear_kPa.values[v] = static_cast<float>(inertia / (realWavenumber * realWavenumber));
-    out.confidence.values[v] = static_cast<float>(std::clamp(e.confidence, 0.0, 1.0));
-    // |δ|q||² is half of |δq|²: noise has no preferred phase.
-    if (noise)
-      out.spread_kPa.values[v] = static_cast<float>(std::abs(modulus_kPa) * std::sqrt(0.5 * e.relativeVariance));
+    maps.put(v, *q, e.confidence, e.relativeVariance);
   });
   if (noise) smoothSpread(out, around, window, inner, progress);
+}
+
+/// Waves of one wavenumber fitted to each window.
+void byLocalWaves(const Waves& waves, Inversion& out, const Progress& progress) {
+  const double omega = 2.0 * std::numbers::pi * out.used.frequency_Hz;
+  detail::LocalWaveOptions o;
+  o.radius_mm = out.used.window_mm;
+  o.averaging_mm = out.used.averaging_mm;
+  o.q0_mm2 = out.used.density_kg_m3 * omega * omega * 1e-9 / defaults::atlasShear.kPa();
+  o.affine = out.used.filter == BulkFilter::Local;
+  const detail::LocalWaves fitted = detail::fitLocalWaves(waves, o, progress);
+  Maps maps(out, waves.grid, !waves.directions.front().noise.empty());
+  for (std::size_t v = 0; v < fitted.q_mm2.size(); ++v)
+    if (fitted.q_mm2[v] != 0.0)
+      maps.put(v, fitted.q_mm2[v], probabilityWithin(meaningfulChange, std::sqrt(0.5 * fitted.relativeVariance[v])),
+               fitted.relativeVariance[v]);
+  out.correlatedVoxels = fitted.correlatedVoxels;
+  out.confidenceMeans = ConfidenceMeaning::ProbabilityWithin;
+}
+
+}  // namespace
+
+Inversion invert(Waves waves, const InversionOptions& options, const Progress& progress) {
+  if (waves.directions.empty()) throw BadArgument("invert: there is no wave");
+  Inversion out;
+  out.warnings = waves.warnings;
+  out.used = completed(options, waves.grid);
+  const int given = static_cast<int>(waves.directions.size());
+  out.mask = waves.mask;
+  if (out.used.filter == BulkFilter::HighPass) highPass(waves, out.used.cutoff_mm, progress.part(0.0, 0.3));
+  if (out.used.filter == BulkFilter::Curl)
+    curl(waves, curlRadius_mm(out.used, waves.grid), out.used.dimensions, progress.part(0.0, 0.3));
+  progress.report(0.3, "inverting");
+  if (out.used.method == Method::LocalWaves)
+    byLocalWaves(waves, out, progress.part(0.3, 1.0));
+  else
+    byLaplacian(waves, out, progress.part(0.3, 1.0));
   out.resolved =
       static_cast<std::size_t>(std::count_if(out.magnitude_kPa.values.begin(), out.magnitude_kPa.values.end(),
                                              [](float value) { return std::isfinite(value); }));

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "image/morphology.h"
+#include "inversion/detail/clipping.h"
 
 namespace glisson::inversion {
 namespace {
@@ -210,7 +211,11 @@ Waves firstHarmonic(const std::vector<PhaseOffsets>& directions, const WaveOptio
   for (std::size_t d = 0; d < directions.size(); ++d) {
     progress.report(0.6 + 0.4 * static_cast<double>(d) / static_cast<double>(directions.size()), "unwrapping");
     Waves::Direction& out = waves.directions[d];
-    out.jumping = jumping(steps[d], waves.mask);
+    const image::Mask clipped = detail::clippedVoxels(directions[d]);
+    image::Mask whole = waves.mask;
+    for (std::size_t v = 0; v < clipped.values.size(); ++v)
+      if (clipped.values[v] != 0) whole.values[v] = 0;
+    out.jumping = jumping(steps[d], whole);
     out.spatiallyUnwrapped = options.unwrapping == Unwrapping::Quality ||
                              (options.unwrapping == Unwrapping::Auto && out.jumping > mostJumping);
     if (out.spatiallyUnwrapped) {
@@ -219,6 +224,14 @@ Waves firstHarmonic(const std::vector<PhaseOffsets>& directions, const WaveOptio
         unwrapSlices(step, waves.mask);
       }
       fillHarmonics(out, steps[d]);
+    }
+    if (!clipped.values.empty()) {
+      const std::size_t before = image::count(waves.mask);
+      detail::fitUnclipped(directions[d], clipped, out, waves.mask);
+      waves.warnings.push_back("direction " + std::to_string(d + 1) + ": phases were cut off at the ends of the scale; " +
+                               std::to_string(before - image::count(waves.mask)) +
+                               " voxels with fewer than four whole offsets were left out");
+      if (image::count(waves.mask) == 0) throw BadInput("phases are cut off at the ends of the scale everywhere");
     }
     out.noise_rad = noiseInside(out, waves.mask, offsets);
     if (out.jumping > mostJumping) {

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "elastography/statistics.h"
 #include "image/resample.h"
+#include "pipeline/detail/reader_intervals.h"
 #include "render/charts.h"
 #include "roi/arrangement.h"
 
@@ -108,17 +109,24 @@ ReadersOfCase compareCase(const ReaderRequest& request, const std::string& name,
                                static_cast<double>(std::count_if(masks.back().values.begin(), masks.back().values.end(),
                                                                  [](auto v) { return v != 0; })));
   }
-  for (std::size_t r = 1; r < masks.size(); ++r)
+  for (std::size_t r = 1; r < masks.size(); ++r) {
     result.agreement.push_back(
         roi::agreement(masks[0], masks[r], request.outlines ? roi::Border::Outline : roi::Border::Surface));
+    detail::addOverlapIntervals(masks[0], masks[r], result.intervals.emplace_back());
+  }
   if (!mre) return result;
+  std::vector<elastography::Measurement> measurements;
   for (const LoadedRoi& roi : rois) {
     const elastography::MappedRoi mapped = mapRoi(roi, mriGrid, mre->map);
     tell(mapped.warnings);
-    const elastography::Measurement measured = elastography::measure(mre->map, mapped.mask);
+    const elastography::Measurement& measured =
+        measurements.emplace_back(elastography::measure(mre->map, mapped.mask));
     tell(measured.warnings);
     result.stiffness_kPa.push_back(measured.pooled.mean_kPa);
+    result.stiffnessMean_kPa.push_back(measured.interval.mean);
   }
+  for (std::size_t r = 1; r < measurements.size(); ++r)
+    result.intervals[r - 1].stiffnessDifference_kPa = detail::stiffnessDifference(measurements[0], measurements[r]);
   return result;
 }
 

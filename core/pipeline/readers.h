@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "elastography/bootstrap.h"
 #include "elastography/readers.h"
 #include "pipeline/sources.h"
 #include "roi/agreement.h"
@@ -24,11 +25,20 @@ struct ReaderRequest {
   bool outlines = false;                       ///< distances in each slice (few, thick slices) instead of in space
 };
 
+/// How sure the agreement of a reader with the first is: bootstrap over slices.
+struct ReaderIntervals {
+  std::size_t slices = 0;  ///< that either reader has outlined
+  elastography::Interval dice, jaccard, volumeDifference_mL, volumeDifference_percent;
+  std::optional<elastography::Interval> stiffnessDifference_kPa;  ///< with an elastogram
+};
+
 struct ReadersOfCase {
   std::string name;                       ///< of the files, without extension
   std::vector<double> volume_mL;          ///< of each reader
   std::vector<double> stiffness_kPa;      ///< mean of each reader; empty without an elastogram
+  std::vector<elastography::Interval> stiffnessMean_kPa;  ///< the same means with their intervals
   std::vector<roi::Agreement> agreement;  ///< of each further reader with the first
+  std::vector<ReaderIntervals> intervals;  ///< of each agreement
 };
 
 struct ReaderStudy {

@@ -24,11 +24,10 @@ glisson::pipeline::Scene blockOnSprings(double youngs_kPa) {
   scene.material.kind = pipeline::MaterialSpec::Kind::Uniform;
   scene.material.value_kPa = youngs_kPa;
 
-  retraction::SupportSpec bed;
+  retraction::SupportSpec& bed = scene.setup.supports.emplace_back();
   bed.kind = retraction::SupportSpec::Kind::Spring;
   bed.region = retraction::FaceRegion{"y+"};
   bed.stiffness_kPa_per_mm = 0.1;
-  scene.setup.supports.push_back(bed);
 
   retraction::Retractor bar;
   bar.contact = retraction::ContactKind::Rigid;

@@ -90,6 +90,10 @@ class Readers(unittest.TestCase):
         one = cli_json("agree", self.at / "a/case0.nii", self.at / "b/case0.nii")["cases"][0]["with_first"][0]
         self.assertAlmostEqual(one["dice"], 19 / 20, places=9)
         self.assertAlmostEqual(one["hausdorff_mm"], 1.64, places=4)
+        # Both slices are alike: nothing changes where others are drawn.
+        self.assertEqual(one["by_slices"]["slices"], 2)
+        self.assertAlmostEqual(one["by_slices"]["dice"]["value"], one["dice"], places=9)
+        self.assertAlmostEqual(one["by_slices"]["dice"]["se"], 0, places=9)
         write_nifti(self.at / "map.nii", volume(lambda i, j, k: 2000 + 10 * i), SIZE, SPACING)
         many = cli_json("agree", self.at / "a", self.at / "b", "--output", self.at / "out")
         self.assertEqual(len(many["cases"]), 4)
@@ -102,9 +106,16 @@ class Readers(unittest.TestCase):
         self.assertAlmostEqual(many["volume"]["bland_altman"]["bias"], 1.5 * 40 * voxel, places=4)
         self.assertTrue((self.at / "out/readers.csv").read_text().startswith("case,reader,quantity,value,unit\n"))
         self.assertTrue((self.at / "out/bland-altman-volume.svg").exists())
-        mean = cli_json("agree", self.at / "a/case0.nii", self.at / "b/case0.nii", "--mre", self.at / "map.nii",
-                        "--quantity", "shear", "--unit", "Pa")["cases"][0]["mean_stiffness_kPa"]
+        case = cli_json("agree", self.at / "a/case0.nii", self.at / "b/case0.nii", "--mre", self.at / "map.nii",
+                        "--quantity", "shear", "--unit", "Pa")["cases"][0]
+        mean = case["mean_stiffness_kPa"]
         self.assertAlmostEqual(mean[1] - mean[0], 0.01, places=5)
+        difference = case["with_first"][0]["by_slices"]["stiffness_difference_kPa"]
+        self.assertAlmostEqual(difference["value"], 0.01, places=5)
+        self.assertAlmostEqual(difference["se"], 0, places=6)
+        self.assertEqual(len(case["mean_stiffness_uncertainty"]), 2)
+        low, high = case["mean_stiffness_uncertainty"][0]["ci95"]
+        self.assertTrue(low < mean[0] < high)
         cli("agree", self.at / "a", self.at / "b/case0.nii", code=3)
         cli("agree", self.at / "a", code=2)
 
@@ -133,6 +144,12 @@ class Readers(unittest.TestCase):
         self.assertEqual(inner["pooled"]["n"], 2 * 24 * 24)
         self.assertAlmostEqual(whole["pooled"]["mean_kPa"], 2.02, delta=0.01)
         self.assertLess(whole["mean_ci95_kPa"][0], whole["pooled"]["mean_kPa"])
+        sure = whole["mean_uncertainty"]
+        self.assertLess(sure["ci95_kPa"][0], whole["pooled"]["mean_kPa"])
+        self.assertEqual(sure["by_slices"]["slices"], 2)
+        self.assertAlmostEqual(sure["by_slices"]["se_kPa"], 0, places=6)
+        self.assertAlmostEqual(sure["se_kPa"], sure["by_correlation"]["se_kPa"], places=12)
+        self.assertTrue(1 <= sure["by_correlation"]["effective_voxels"] <= whole["pooled"]["n"])
         self.assertEqual(cli_json(*base, "--exclude", self.at / "vessel.nii")["pooled"]["n"], 2 * (900 - 9))
         self.assertEqual(cli_json(*base, "--erode-mm", 3.3)["pooled"]["n"], 2 * 26 * 26)
         cli(*base, "--erode-mm", 60, code=3)
