@@ -24,6 +24,18 @@ int report(int code, const std::string& message) {
   return code;
 }
 
+/// Options may be written with '_' for '-': 3D Slicer passes no other names. Values are left as they are.
+std::vector<std::string> withDashes(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  for (std::string& word : words)
+    if (word.size() > 2 && word.starts_with("--"))
+      std::replace(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(std::min(word.find('='), word.size())), '_',
+                   '-');
+  // The parser takes them from the end.
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -35,7 +47,8 @@ int main(int argc, char** argv) {
 
   CLI::App app{
       "Glisson: patient-specific biomechanics for image-guided liver surgery.\nResearch use only, not for clinical "
-      "use."};
+      "use.",
+      programName};
   app.set_version_flag("--version", std::string("glisson-cli ") + version());
   app.require_subcommand(1);
   app.fallthrough();
@@ -46,7 +59,7 @@ int main(int argc, char** argv) {
   app.add_flag("--strict", context.strict, "refuse what would give a warning (exit code 3)");
   app.add_option("--threads", context.threads, "threads to use, 0 = one per core")->check(CLI::Range(0, 1024));
   CLI::Option* seed = app.add_option("--seed", context.seed, "seed of everything random");
-  app.add_option("--output,-o", context.output, "folder or file to write to");
+  app.add_option("--output,-o", context.output, "folder or file to write to")->type_name(value::folderOrFile);
   app.add_option("--render-backend", context.renderBackend, "how pictures are drawn")
       ->check(CLI::IsMember({"auto", "egl", "x11"}));
   app.set_config("--config", "", "read options from an INI or TOML file");
@@ -71,9 +84,10 @@ int main(int argc, char** argv) {
   addValidate(app, context);
   addStability(app, context);
   addTradeoff(app, context);
+  addDocument(app, context);
 
   try {
-    app.parse(argc, argv);
+    app.parse(withDashes(argc, argv));
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::Error& e) {

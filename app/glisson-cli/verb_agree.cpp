@@ -114,10 +114,13 @@ void addAgree(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("agree", "how well readers agree: overlap, distances, ICC, limits of agreement");
   auto a = std::make_shared<Arguments>();
   verb->add_option("readers", a->request.readers, "a region each, or a folder each with one file per case")
+      ->type_name(value::fileOrFolder)
       ->required()
       ->expected(2, 20);
-  verb->add_option("--mri", a->request.mri, "image (or folder of images) that outlines were drawn on");
-  verb->add_option("--mre", a->request.mre, "elastogram (or folder of them): mean stiffness of each reader too");
+  verb->add_option("--mri", a->request.mri, "image (or folder of images) that outlines were drawn on")
+      ->type_name(value::folderOrVolume);
+  verb->add_option("--mre", a->request.mre, "elastogram (or folder of them): mean stiffness of each reader too")
+      ->type_name(value::folderOrVolume);
   verb->add_option("--quantity", a->quantity, "what a bare map holds")->check(CLI::IsMember({"shear", "youngs"}));
   verb->add_option("--unit", a->unit, "unit of a bare map: Pa, kPa or <factor>kPa");
   verb->add_option("--label", a->request.label, "label of masks, 0 = any");

@@ -78,7 +78,7 @@ int report(const Context& context, const cohort::CohortResult& r, const cohort::
 void addShared(CLI::App* verb, const std::shared_ptr<Arguments>& a) {
   verb->add_option("--jobs", a->options.jobs, "patients at a time, 0 = what cores and memory allow")
       ->check(CLI::Range(0, 1024));
-  verb->add_option("--scene", a->scene, "scene whose geometry is replaced by each patient's");
+  verb->add_option("--scene", a->scene, "scene whose geometry is replaced by each patient's")->type_name(value::file);
   verb->add_flag("--as-published", a->options.asPublished, "histogram of Young's moduli against 2.1 kPa");
   verb->add_flag("--no-sensitivity", a->noSensitivity, "leave out the chosen four under other assumptions");
 }
@@ -99,7 +99,7 @@ void addCohort(CLI::App& app, Context& context) {
       app.add_subcommand("cohort", "the paper's studies over a folder of patients; resumes where it stopped");
   verb->fallthrough();
   auto a = std::make_shared<Arguments>();
-  verb->add_option("patients", a->patients, "folder with one folder per patient");
+  verb->add_option("patients", a->patients, "folder with one folder per patient")->type_name(value::folder);
   verb->add_option("--shard", a->shard, "i/n: only every n-th patient, for array jobs; then cohort merge");
   verb->add_flag("--reports", a->options.reports,
                  "a report of every patient, as HTML and PDF, with its run record (15 s of processor time each)");
@@ -107,9 +107,10 @@ void addCohort(CLI::App& app, Context& context) {
 
   CLI::App* merge = verb->add_subcommand("merge", "put the results of shards together and summarise them");
   auto m = std::make_shared<Arguments>();
-  merge->add_option("shards", m->shards, "output folders of all shards")->required();
-  merge->add_option("--data", m->patients,
-                    "the patients again, for the overlays and the sensitivity of the chosen four");
+  merge->add_option("shards", m->shards, "output folders of all shards")->type_name(value::folder)->required();
+  merge
+      ->add_option("--data", m->patients, "the patients again, for the overlays and the sensitivity of the chosen four")
+      ->type_name(value::folder);
   addShared(merge, m);
   merge->callback([&context, m] {
     context.action = [&context, m] {

@@ -18,9 +18,10 @@ void addDeidentify(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand(
       "deidentify", "copies of DICOM files without what identifies the patient (PS3.15 basic profile, and stricter)");
   auto a = std::make_shared<Arguments>();
-  verb->add_option("in", a->in, "DICOM folder or file")->required();
-  verb->add_option("out", a->out, "folder for the copies, new or empty")->required();
+  verb->add_option("in", a->in, "DICOM folder or file")->type_name(value::folderOrFile)->required();
+  verb->add_option("out", a->out, "folder for the copies, new or empty")->type_name(value::folder)->required();
   verb->add_option("--key", a->key, "key file of the project, made where it is missing; keep it apart from results")
+      ->type_name(value::file)
       ->required();
   verb->add_flag("--shift-dates", a->options.shiftDates, "keep dates, all of one patient shifted by the same days");
   verb->add_flag("--clean-descriptors", a->options.cleanDescriptors, "describe series by their role");

@@ -5,6 +5,7 @@
 #include "base/private_folder.h"
 #include "diagnostics_json.h"
 #include "pipeline/export.h"
+#include "slicer_xml.h"
 #include "verbs.h"
 
 namespace glisson::cli {
@@ -37,12 +38,15 @@ void addExport(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("export", "standard files of a scene or a run, by --to:" + names);
   auto request = std::make_shared<pipeline::ExportRequest>();
   auto quantity = std::make_shared<std::string>();
-  verb->add_option("source", request->source, "scene.json, case.json, or the folder of a run")->required();
+  verb->add_option("source", request->source, "scene.json, case.json, or the folder of a run")
+      ->type_name(value::fileOrFolder)
+      ->required();
   verb->add_option("--to", request->formats, "formats, separated by commas")->required()->delimiter(',');
   verb->add_option("--quantity", *quantity, "modulus of exported stiffness, where it is not the measured one")
       ->check(CLI::IsMember({"shear", "youngs"}));
   verb->add_option("--case", request->caseName, "case of tidy tables (never taken from the patient)");
   verb->add_option("--reader", request->reader, "reader of tidy tables");
+  addSlicerXml(*verb, {"Export a result", {PathKind::Folder}});
   verb->callback([&context, request, quantity] {
     context.action = [&context, request, quantity] {
       if (context.output.empty()) throw BadInput("export needs a folder to write to: give --output");

@@ -9,6 +9,7 @@
 #include "elastography/statistics.h"
 #include "image/io.h"
 #include "pipeline/phases.h"
+#include "slicer_xml.h"
 #include "verbs.h"
 
 namespace glisson::cli {
@@ -146,14 +147,16 @@ void addInvert(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("invert", "raw phase images of an elastography acquisition to stiffness");
   auto a = std::make_shared<Arguments>();
   verb->add_option("--phase", a->phases.paths, "phase images: volumes in order of direction and time, or folders")
+      ->type_name(value::folderOrVolume)
       ->required();
   verb->add_option("--frequency", a->options.frequency_Hz, "of the vibration, Hz; DICOM files may tell it")
       ->check(CLI::PositiveNumber);
   verb->add_option("--directions", a->phases.directions, "motion-encoding directions in plain volumes")
       ->check(CLI::Range(1, 12));
-  verb->add_option("--encoding", a->encodings, "x y z (LPS) of every direction, for the curl");
+  verb->add_option("--encoding", a->encodings, "x y z (LPS) of every direction, for the curl")->delimiter(',');
   verb->add_option("--radians-per-unit", a->radiansPerUnit, "of stored values, where they do not tell");
-  verb->add_option("--mask", a->mask, "voxels with signal; else found from the noise in time");
+  verb->add_option("--mask", a->mask, "voxels with signal; else found from the noise in time")
+      ->type_name(value::mask);
   verb->add_option("--method", a->method, "auto is laplacian; local-waves slice by slice only")
       ->check(CLI::IsMember({"auto", "local-waves", "laplacian"}));
   verb->add_option("--filter", a->filter, "what takes compression away; auto: local with local waves, highpass with the laplacian")
@@ -167,6 +170,7 @@ void addInvert(CLI::App& app, Context& context) {
   verb->add_option("--density", a->options.density_kg_m3, "kg/m3")->check(CLI::PositiveNumber);
   verb->add_option("--confidence", a->confidence, "least confidence of voxels in the statistics")
       ->check(CLI::Range(0.0, 1.0));
+  addSlicerXml(*verb, {"Invert wave images", {PathKind::Folder}});
   verb->callback([&context, a] { context.action = [&context, a] { return invert(*a, context); }; });
 }
 

@@ -199,7 +199,7 @@ int serveScene(const Arguments& a, const Context& context) {
 void addLive(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("live", "stream the retraction over OpenIGTLink; it follows the tool's pose");
   auto a = std::make_shared<Arguments>();
-  verb->add_option("scene", a->scene, "scene.json or case.json with a retractor")->required();
+  verb->add_option("scene", a->scene, "scene.json or case.json with a retractor")->type_name(value::file)->required();
   verb->add_option("--port", a->options.port, "0 = any free one")->check(CLI::Range(0, 65535));
   verb->add_option("--bind", a->options.bind, "address to listen on; 0.0.0.0 = every network of this computer");
   verb->add_option("--rate", a->options.rate_hz, "frames a second");
@@ -210,7 +210,8 @@ void addLive(CLI::App& app, Context& context) {
                  "a measurement without a network: --frames frames from rest on, one after another, no client");
   verb->add_option("--run", a->run,
                    "folder of a run of the same scene: tells what the coarser cells of the live liver cost "
-                   "(discretisation_mm)");
+                   "(discretisation_mm)")
+      ->type_name(value::folder);
   verb->add_option("--model", a->model,
                    "contact: a rigid bar in large deformation; condensed: a linear patch, microseconds an answer; auto: as "
                    "the scene's retractor")

@@ -12,6 +12,7 @@
 #include "pipeline/region_file.h"
 #include "pipeline/sources.h"
 #include "roles_option.h"
+#include "slicer_xml.h"
 #include "verbs.h"
 
 namespace glisson::cli {
@@ -229,12 +230,15 @@ void addMeasure(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("measure", "stiffness statistics of a region of interest, per slice and pooled");
   auto a = std::make_shared<Arguments>();
   verb->add_option("--mre", a->mre, "elastogram: DICOM folder, DICOMDIR or ZIP archive, or a stiffness map")
+      ->type_name(value::folderOrVolume)
       ->required();
   verb->add_option("--roi", a->roi,
                    "region of interest: contour JSON, RT Structure Set, Segmentation, mask or closed surface")
+      ->type_name(value::fileOrMask)
       ->required();
   verb->add_option("--mri", a->mri,
-                   "image that the contours were drawn on, where its slices differ from the elastogram's");
+                   "image that the contours were drawn on, where its slices differ from the elastogram's")
+      ->type_name(value::folderOrVolume);
   verb->add_option("--quantity", a->quantity, "what a bare map holds")->check(CLI::IsMember({"shear", "youngs"}));
   verb->add_option("--unit", a->unit, "unit of a bare map: Pa, kPa or <factor>kPa");
   verb->add_option("--role", a->roles, "series=role, set by hand: UID or number, and stiffness, confidence ...");
@@ -252,11 +256,13 @@ void addMeasure(CLI::App& app, Context& context) {
       ->check(CLI::Range(0, 100));
   verb->add_option("--erode-mm", a->erosion_mm, "the same in millimetres from the outline")
       ->check(CLI::Range(0.0, 100.0));
-  verb->add_option("--exclude", a->exclude, "mask of what is left out: large vessels");
+  verb->add_option("--exclude", a->exclude, "mask of what is left out: large vessels")->type_name(value::mask);
   verb->add_flag("--register", a->registration, "correct another breath-hold: lay the magnitude images over --mri");
-  verb->add_option("--magnitude", a->magnitude, "magnitude images of the elastogram, where they lie elsewhere");
+  verb->add_option("--magnitude", a->magnitude, "magnitude images of the elastogram, where they lie elsewhere")
+      ->type_name(value::folderOrVolume);
   verb->add_option("--poisson", a->poisson, "for Young's modulus; 0.5 is incompressible, E = 3 mu")
       ->check(CLI::Range(0.0, 0.5));
+  addSlicerXml(*verb, {"Measure stiffness", {}});
   verb->callback([&context, a] { context.action = [&context, a] { return measure(*a, context); }; });
 }
 

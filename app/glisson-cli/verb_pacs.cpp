@@ -231,7 +231,7 @@ void addPacs(CLI::App& app, Context& context) {
   sub = add(*verb, context, a, "send", "send DICOM files and folders to a server (C-STORE)",
             [](Arguments x, const Context& c) { return send(x, c); });
   addNode(*sub, a->node);
-  sub->add_option("files", a->files, "files and folders")->required();
+  sub->add_option("files", a->files, "files and folders")->type_name(value::fileOrFolder)->required();
 }
 
 }  // namespace glisson::cli

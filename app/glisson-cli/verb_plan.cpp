@@ -10,7 +10,9 @@ void addPlan(CLI::App& app, Context& context) {
   CLI::App* verb =
       app.add_subcommand("plan", "what a scene needs and what it leaves out, with reasons and predicted size");
   auto scene = std::make_shared<std::filesystem::path>();
-  verb->add_option("scene", *scene, "scene.json, or case.json as the workstation saves it")->required();
+  verb->add_option("scene", *scene, "scene.json, or case.json as the workstation saves it")
+      ->type_name(value::file)
+      ->required();
   verb->callback([&context, scene] {
     context.action = [&context, scene] {
       const pipeline::Scene read = pipeline::readScene(*scene);

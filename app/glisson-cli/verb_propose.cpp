@@ -7,6 +7,7 @@
 #include "roi/contour_io.h"
 #include "roi/polygon.h"
 #include "roi/propose.h"
+#include "slicer_xml.h"
 #include "verbs.h"
 
 namespace glisson::cli {
@@ -66,8 +67,12 @@ int propose(const Arguments& a, const Context& context) {
 void addPropose(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("propose", "a first outline of an organ from one point inside it, to correct");
   auto a = std::make_shared<Arguments>();
-  verb->add_option("--image", a->image, "DICOM folder, or a volume")->required();
-  verb->add_option("--seed", a->seed, "x,y,z inside the organ, LPS mm")->required()->expected(3)->delimiter(',');
+  verb->add_option("--image", a->image, "DICOM folder, or a volume")->type_name(value::folderOrVolume)->required();
+  verb->add_option("--seed", a->seed, "x,y,z inside the organ, LPS mm")
+      ->type_name(value::point)
+      ->required()
+      ->expected(3)
+      ->delimiter(',');
   verb->add_flag("--index", a->index, "the seed is a voxel index, not millimetres");
   verb->add_option("--spread", a->options.spread, "intensities accepted, in robust SDs of the surroundings")
       ->check(CLI::PositiveNumber);
@@ -79,6 +84,7 @@ void addPropose(CLI::App& app, Context& context) {
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--most", a->options.most_mL, "of an organ, mL: what is larger has leaked and is refused")
       ->check(CLI::PositiveNumber);
+  addSlicerXml(*verb, {"Propose an outline", {PathKind::File, PathKind::Mask}});
   verb->callback([&context, a] { context.action = [&context, a] { return propose(*a, context); }; });
 }
 

@@ -33,7 +33,7 @@ void readSize(const std::string& text, pipeline::PictureOptions& o) {
 void addRender(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("render", "draw the pictures of a run again: other cameras, palettes or slices");
   auto a = std::make_shared<RenderArguments>();
-  verb->add_option("run", a->run, "folder of the run, or its run.json")->required();
+  verb->add_option("run", a->run, "folder of the run, or its run.json")->type_name(value::folderOrFile)->required();
   verb->add_option("--camera", a->cameras,
                    "anterior, posterior, left, right, superior, inferior, oblique, or --camera=azimuth,elevation in "
                    "degrees; may be given several times");

@@ -9,9 +9,11 @@ void addReplay(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("replay", "compute a run again and compare every output with its record");
   auto record = std::make_shared<std::filesystem::path>();
   auto options = std::make_shared<pipeline::ReplayOptions>();
-  verb->add_option("record", *record, "run.json, or the folder of the run")->required();
-  verb->add_option("--scene", options->scene, "the scene, where it does not lie beside the record");
-  verb->add_option("--root", options->root, "folder where the inputs are now, where they have moved");
+  verb->add_option("record", *record, "run.json, or the folder of the run")->type_name(value::fileOrFolder)->required();
+  verb->add_option("--scene", options->scene, "the scene, where it does not lie beside the record")
+      ->type_name(value::file);
+  verb->add_option("--root", options->root, "folder where the inputs are now, where they have moved")
+      ->type_name(value::folder);
   verb->callback([&context, record, options] {
     context.action = [&context, record, options] {
       options->output = context.output;

@@ -3,10 +3,12 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/quantity.h"
 #include "diagnostics_json.h"
 #include "phantom/phantom.h"
 #include "pipeline/run.h"
 #include "render/backend.h"
+#include "slicer_xml.h"
 #include "verbs.h"
 
 namespace glisson::cli {
@@ -69,11 +71,34 @@ void useBackend(const Context& context) {
                                                             : render::RenderBackend::Auto);
 }
 
-/// Runs, prints and judges; an exit code.
+/// What a first run shows, for someone who has never seen one; then the same lines as every run.
+std::string introduction(const pipeline::RunResult& r, const std::filesystem::path& patient,
+                         const std::filesystem::path& output) {
+  std::ostringstream t;
+  t.precision(3);
+  t << "A synthetic patient was written as DICOM, read back, and its liver retracted twice by the same bar: with the\n"
+       "stiffness of its elastogram and with the textbook's "
+    << defaults::atlasShear.kPa() << " kPa.\n";
+  if (r.stiffness) t << "  shear stiffness of this liver   " << r.stiffness->pooled.mean_kPa << " kPa\n";
+  if (r.primary.contact && r.atlas && r.atlas->contact)
+    t << "  the bar travels                 " << r.primary.contact->travel_mm << " mm; with the textbook's stiffness "
+      << r.atlas->contact->travel_mm << " mm\n";
+  if (r.difference)
+    t << "  the two predictions differ by   " << r.difference->at_retractor_mm << " mm at the bar, "
+      << r.difference->mean_mm << " mm on average over the liver\n";
+  for (const auto& f : r.files)
+    if (f.extension() == ".png") t << "  picture                         " << f.string() << "\n";
+  t << "  all of it on one page           " << (output / "report.html").string() << "\n"
+    << "Next:  glisson " << patient.string() << "                 (the workstation)\n"
+    << "       glisson-cli plan " << (patient / "scene.json").string() << "   (what a run does, and why)\n\n";
+  return t.str();
+}
+
+/// Runs, prints and judges; an exit code. before: of the result, printed first.
 int runScene(const pipeline::Scene& scene, const pipeline::RunOptions& options, const Context& context,
-             const Progress& progress) {
+             const Progress& progress, const std::function<std::string(const pipeline::RunResult&)>& before = {}) {
   const pipeline::RunResult r = pipeline::run(scene, options, progress);
-  context.print(Json::parse(r.json), summary(r));
+  context.print(Json::parse(r.json), (before ? before(r) : std::string()) + summary(r));
   refuseIfStrict(context, r.diagnostics, r.warnings);
   if (r.primary.solver.converged() && (!r.atlas || r.atlas->solver.converged())) return Ok;
   std::cerr << "glisson-cli: " << whyOf(r) << "; the result is marked and not drawn" << adviceFor(scene, r) << std::endl;
@@ -87,11 +112,14 @@ void addRun(CLI::App& app, Context& context) {
   auto scenePath = std::make_shared<std::filesystem::path>();
   auto colourBlind = std::make_shared<bool>(false);
   auto overrideChecks = std::make_shared<bool>(false);
-  verb->add_option("scene", *scenePath, "scene.json, or case.json as the workstation saves it")->required();
+  verb->add_option("scene", *scenePath, "scene.json, or case.json as the workstation saves it")
+      ->type_name(value::file)
+      ->required();
   verb->add_flag("--colour-blind", *colourBlind, "orange and blue instead of red and blue");
   verb->add_flag("--override", *overrideChecks, "take MRI and elastogram of other days or patients nevertheless");
   auto howSure = std::make_shared<bool>(false);
   verb->add_flag("--uncertainty", *howSure, "say how sure the answer is, and what drives it (as \"uncertainty\": true)");
+  addSlicerXml(*verb, {"Retract the liver", {PathKind::Folder}});
   verb->callback([&context, scenePath, colourBlind, overrideChecks, howSure] {
     context.action = [&context, scenePath, colourBlind, overrideChecks, howSure] {
       pipeline::Scene scene = pipeline::readScene(*scenePath);
@@ -122,7 +150,8 @@ void addDemo(CLI::App& app, Context& context) {
       options.output = folder / "run";
       context.note("the patient is in " + written.front().string() + ", what is computed will be in " +
                    options.output.string());
-      return runScene(pipeline::readScene(written.front() / "scene.json"), options, context, progress.part(0.3, 1.0));
+      return runScene(pipeline::readScene(written.front() / "scene.json"), options, context, progress.part(0.3, 1.0),
+                      [&](const pipeline::RunResult& r) { return introduction(r, written.front(), options.output); });
     };
   });
 }

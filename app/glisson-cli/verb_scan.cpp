@@ -168,8 +168,11 @@ void addScan(CLI::App& app, Context& context) {
   CLI::App* verb =
       app.add_subcommand("scan", "list the series of a folder: roles with reasons, geometry, warnings, skipped files");
   auto a = std::make_shared<Arguments>();
-  verb->add_option("path", a->path, "DICOM folder or file, DICOMDIR or ZIP archive")->required();
-  verb->add_option("--thumbnails", a->thumbnails, "folder for one PNG of each series' middle slice");
+  verb->add_option("path", a->path, "DICOM folder or file, DICOMDIR or ZIP archive")
+      ->type_name(value::folderOrFile)
+      ->required();
+  verb->add_option("--thumbnails", a->thumbnails, "folder for one PNG of each series' middle slice")
+      ->type_name(value::folder);
   verb->add_option("--role", a->roles, "series=role, set by hand: UID or number, and stiffness, wave, magnitude ...");
   verb->callback([&context, a] { context.action = [&context, a] { return scan(*a, context); }; });
 }

@@ -55,7 +55,9 @@ void addTradeoff(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("tradeoff", "error against run time for a scene, against its own finest answer");
   auto scene = std::make_shared<std::filesystem::path>();
   auto options = std::make_shared<study::TradeoffOptions>();
-  verb->add_option("scene", *scene, "scene.json, or case.json as the workstation saves it")->required();
+  verb->add_option("scene", *scene, "scene.json, or case.json as the workstation saves it")
+      ->type_name(value::file)
+      ->required();
   verb->add_flag("--quick", options->quick, "fewer variants");
   verb->add_option("--budget", options->budget_s, "seconds after which no further variant is begun")
       ->check(CLI::Range(0.0, 86400.0));

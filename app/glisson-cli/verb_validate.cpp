@@ -1,5 +1,8 @@
+#include "base/atomic_file.h"
+#include "base/version.h"
 #include "study/beam_report.h"
 #include "study/contact_study.h"
+#include "study/credibility.h"
 #include "study_json.h"
 
 namespace glisson::cli {
@@ -60,6 +63,35 @@ int validateContact(bool quick, const Context& context) {
   return Ok;
 }
 
+Json lineJson(const study::Evidence& e) {
+  const auto orNull = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
+  Json figures = Json::array();
+  for (const study::EvidenceFigure& f : e.figures)
+    figures.push_back({{"name", f.name}, {"value", f.value}, {"unit", f.unit}});
+  return {{"topic", study::nameOf(e.topic)}, {"what", e.what},
+          {"state", study::nameOf(e.state)}, {"found", orNull(e.found)},
+          {"wanted", orNull(e.wanted)},      {"why", orNull(e.why)},
+          {"command", orNull(e.command)},    {"figures", figures}};
+}
+
+int credibility(bool quick, const Context& context) {
+  const study::Credibility s = study::studyCredibility({quick, context.seed}, context.progress());
+  Json j = {{"standard", "ASME V&V 40-2018"}, {"version", version()},  {"commit", buildCommit()}, {"quick", quick},
+            {"seed", context.seed},           {"lines", Json::array()}};
+  for (const study::Evidence& e : s.lines) j["lines"].push_back(lineJson(e));
+  std::string text = study::table(s);
+  Json files = Json::array();
+  if (!context.output.empty()) {
+    for (const auto& file : study::writeCredibility(context.output, s)) files.push_back(file.string());
+    writeAtomically(context.output / "credibility.json", j.dump(1) + "\n");
+    files.push_back((context.output / "credibility.json").string());
+    for (const auto& file : files) text += "written " + file.get<std::string>() + "\n";
+  }
+  j["files"] = files;
+  context.print(j, text);
+  return Ok;
+}
+
 }  // namespace
 
 void addValidate(CLI::App& app, Context& context) {
@@ -72,12 +104,15 @@ void addValidate(CLI::App& app, Context& context) {
   verb->add_option("--poisson", options->poisson, "Poisson's ratio")->check(CLI::Range(-0.9, 0.4999));
   verb->add_option("--tip", options->tip_mm, "Euler-Bernoulli tip deflection in mm")->check(CLI::Range(1e-6, 10.0));
   verb->add_flag("--quick", options->quick, "fewer methods and resolutions");
-  verb->callback(
-      [&context, problem, options] {
-        context.action = [&context, problem, options] {
-          return *problem == "contact" ? validateContact(options->quick, context) : validate(*options, context);
-        };
-      });
+  auto page = std::make_shared<bool>(false);
+  verb->add_flag("--credibility", *page,
+                 "instead: the page after ASME V&V 40 (HTML, PDF, JSON), every figure computed for it");
+  verb->callback([&context, problem, options, page] {
+    context.action = [&context, problem, options, page] {
+      if (*page) return credibility(options->quick, context);
+      return *problem == "contact" ? validateContact(options->quick, context) : validate(*options, context);
+    };
+  });
 }
 
 }  // namespace glisson::cli

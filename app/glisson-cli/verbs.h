@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/progress.h"
+#include "option_table.h"
 
 namespace glisson::cli {
 
@@ -66,5 +67,6 @@ void addDeidentify(CLI::App& app, Context& context);
 void addValidate(CLI::App& app, Context& context);
 void addStability(CLI::App& app, Context& context);
 void addTradeoff(CLI::App& app, Context& context);
+void addDocument(CLI::App& app, Context& context);
 
 }  // namespace glisson::cli

@@ -6,15 +6,17 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 
-find_package(VTK 9.1 REQUIRED COMPONENTS
+set(GLISSON_VTK_COMPONENTS
   CommonCore CommonDataModel CommonExecutionModel CommonColor CommonMath CommonTransforms
   FiltersCore FiltersGeneral FiltersGeometry FiltersModeling FiltersSources
   ImagingCore IOImage IOXML IOLegacy IOGeometry
   InteractionStyle InteractionWidgets RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation
   RenderingContext2D RenderingContextOpenGL2 ChartsCore ViewsContext2D)
-find_package(ITK 5.2 REQUIRED COMPONENTS
+set(GLISSON_ITK_COMPONENTS
   ITKCommon ITKIOImageBase ITKIONIFTI ITKIONRRD ITKIOMeta ITKImageFeature ITKSmoothing ITKImageIntensity ITKThresholding
   ITKDistanceMap ITKMathematicalMorphology ITKConnectedComponents ITKRegionGrowing ITKImageGrid ITKBiasCorrection)
+find_package(VTK 9.1 REQUIRED COMPONENTS ${GLISSON_VTK_COMPONENTS})
+find_package(ITK 5.2 REQUIRED COMPONENTS ${GLISSON_ITK_COMPONENTS})
 
 # DCMTK's package sets plain variables; one INTERFACE target makes them look like the rest.
 find_package(DCMTK REQUIRED)

@@ -1,0 +1,1 @@
+"""What the module GlissonRetraction does, without Slicer's classes."""
