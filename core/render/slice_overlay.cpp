@@ -136,6 +136,10 @@ class Composer {
     return {low, high};
   }
 
+  bool showsBar(const SlicePlane& plane) const {
+    const auto cuts = [&](const State& state) { return state.bar && !cutSurface(plane, *state.bar).lines.empty(); };
+    return cuts(mre_) || (scene_.compared && cuts(atlas_));
+  }
   /// Largest ‖u_mre − u_atlas‖ of the tissue that lies in the slice as it is drawn, with the own stiffness, mm; of one
   /// answer the largest ‖u‖.
   double largestSeen_mm(int k) const {
@@ -365,7 +369,8 @@ Picture overlayOf(const Composer& composer, const RetractionScene& scene, const 
   frame.legend.push_back({colours::gridGreen, formatted("grid %g mm", options.grid_mm), true});
   frame.notes = {formatted("Slice %.0f of %.0f", k + 1, scene.mri.grid.size.z()) + largestInSlice(composer, scene, k),
                  "Surroundings of the liver are not simulated: shown at rest, dimmed."};
-  if (scene.bar) frame.notes.push_back("Even discs or bands with a bright edge: the bar where it ends, cut by the slice.");
+  if (composer.showsBar(plane))
+    frame.notes.push_back("Even discs or bands with a bright edge: the bar where it ends, cut by the slice.");
   if (options.arrows) frame.notes.push_back("Arrows: displacement from rest in the plane of the slice, true to scale.");
   frame.caption = scene.caption;
   frame.mark = scene.mark;
