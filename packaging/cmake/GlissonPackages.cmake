@@ -24,23 +24,21 @@ set(CPACK_DEBIAN_APP_PACKAGE_SHLIBDEPS ON)
 # Opened at run time, so that shlibdeps does not see them: drawing without a display, icons.
 set(CPACK_DEBIAN_APP_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri, libqt6svg6")
 set(CPACK_DEBIAN_APP_PACKAGE_SUGGESTS "paraview, libglisson-dev")
-set(CPACK_COMPONENT_APP_DESCRIPTION "patient-specific biomechanics for liver surgery (research)
- Glisson shows where a patient's hepatic vessels end up when the liver is
- retracted: with that patient's own stiffness, measured by MR elastography, and
- with the usual textbook stiffness.
- .
- This package has the workstation (glisson), the command line (glisson-cli), a
- module for 3D Slicer and recipes for clusters. Research use only, not for
- clinical use.")
+set(CPACK_COMPONENT_APP_DESCRIPTION "Glisson shows where a patient's hepatic vessels end up when the liver is
+retracted: with that patient's own stiffness, measured by MR elastography, and
+with the usual textbook stiffness.
+
+This package has the workstation (glisson), the command line (glisson-cli), a
+module for 3D Slicer and recipes for clusters. Research use only, not for
+clinical use.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libglisson-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_COMPONENT_DEV_DESCRIPTION "patient-specific biomechanics for liver surgery (development)
- Headers, static libraries and the CMake package of Glisson's core: DICOM, MR
- elastography, solid mechanics with contact, rendering and reports.
- .
- Use it with find_package(Glisson) and link Glisson::core or single rooms.
- Research use only, not for clinical use.")
+set(CPACK_COMPONENT_DEV_DESCRIPTION "Headers, static libraries and the CMake package of Glisson's core: DICOM, MR
+elastography, solid mechanics with contact, rendering and reports.
+
+Use it with find_package(Glisson) and link Glisson::core or single rooms.
+Research use only, not for clinical use.")
 # The -dev packages that the build itself needs are what a program that links the static libraries needs.
 file(STRINGS "${PROJECT_SOURCE_DIR}/packaging/debian-packages.txt" lines)
 set(group "")
