@@ -82,18 +82,24 @@ SolveReport TimeStepper::step(double from, double to, DynamicState& state) {
   return scheme_.euler ? stepEuler(to, state) : stepSecondOrder(from, to, state);
 }
 
+/// x of the step's matrix, without the modes; its status says where it is not finite.
+SolveReport TimeStepper::solve(Eigen::VectorXd& b) {
+  withoutRigidForce(b);
+  SolveReport report = system_.solve(b, x_);
+  if (x_.allFinite())
+    withoutModes(x_);
+  else
+    report.status = SolveStatus::NotFinite;
+  return report;
+}
+
 SolveReport TimeStepper::stepEuler(double to, DynamicState& state) {
   // The load at the end of the step, as every other force in the implicit scheme.
   Eigen::VectorXd Kv(q_.size());
   system_.applyK(v_, Kv);
   Eigen::VectorXd b = h_ * (to * f_ - Kq_ - (h_ + damp_) * Kv - alpha_ * Mv_);
-  withoutRigidForce(b);
-  SolveReport report = system_.solve(b, x_);
-  if (!x_.allFinite()) {
-    report.status = SolveStatus::NotFinite;
-    return report;
-  }
-  withoutModes(x_);
+  const SolveReport report = solve(b);
+  if (report.status == SolveStatus::NotFinite) return report;
   v_ += x_;
   q_ += h_ * v_;
   a_ = x_ / h_;
@@ -117,13 +123,8 @@ SolveReport TimeStepper::stepSecondOrder(double from, double to, DynamicState& s
   system_.applyK(q + damp_ * v, K);
   system_.applyM(am * a_ + alpha_ * v, M);
   Eigen::VectorXd b = h_ * (load * f_ - K - M);
-  withoutRigidForce(b);
-  SolveReport report = system_.solve(b, x_);
-  if (!x_.allFinite()) {
-    report.status = SolveStatus::NotFinite;
-    return report;
-  }
-  withoutModes(x_);
+  const SolveReport report = solve(b);
+  if (report.status == SolveStatus::NotFinite) return report;
   const Eigen::VectorXd a = x_ / h_;
   q_ += h_ * v_ + h_ * h_ * ((0.5 - beta) * a_ + beta * a);
   v_ += h_ * ((1 - gamma) * a_ + gamma * a);

@@ -33,6 +33,7 @@ class TimeStepper {
 
   SolveReport stepEuler(double to, DynamicState& state);
   SolveReport stepSecondOrder(double from, double to, DynamicState& state);
+  SolveReport solve(Eigen::VectorXd& b);
   void accelerate(double factor);
   void withoutModes(Eigen::VectorXd& x) const;
   void withoutRigidForce(Eigen::VectorXd& b) const;

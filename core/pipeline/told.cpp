@@ -135,17 +135,7 @@ namespace {
 
 /// What is said of an answer and stands among the run's own diagnostics too, with its stiffness.
 bool isOfRun(DiagnosticCode code) {
-  switch (code) {
-    case DiagnosticCode::RetractorSlips:
-    case DiagnosticCode::RetractorFolds:
-    case DiagnosticCode::RetractorCuts:
-    case DiagnosticCode::RetractorPastLimit:
-    case DiagnosticCode::LoadsNotBorne:
-    case DiagnosticCode::NotConverged:
-      return true;
-    default:
-      return Diagnostic{code, {}}.severity() == Severity::Error;
-  }
+  return code == DiagnosticCode::RetractorPastLimit || Diagnostic{code, {}}.severity() == Severity::Error;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 using mechanics::TimeScheme;
 
 constexpr double finest = 1.0 / 16;
-constexpr double mostSteps = 40000;  ///< of the reference
+constexpr int mostSteps = 40000;  ///< of the reference
 
 const char* inWords(TimeScheme scheme) {
   switch (scheme) {
@@ -67,7 +67,8 @@ std::vector<Row> timeSchemeRows(const retraction::Model& model, const retraction
   std::vector<Row> rows;
   const retraction::Setup best = with(setup, TimeScheme::GeneralisedAlpha, finest);
   if (best.analysis.end_s / (1e-3 * best.analysis.h_ms) > mostSteps) {
-    skipped.push_back("time schemes: their reference would take more than 40000 steps; shorten \"end_s\"");
+    skipped.push_back("time schemes: their reference would take more than " + std::to_string(mostSteps) +
+                      " steps; shorten \"end_s\"");
     return rows;
   }
   const Stopwatch budget;

@@ -63,51 +63,51 @@ TEST(LocalWaves, CrossingWavesOnAffineMotionGiveTheirModulusUpToTheBorder) {
 }
 
 // Noise of the wave itself, smooth over neighbours as after interpolation, leaves no trace in other harmonics: only what
-// the fit leaves over tells of it. Where the confidence is .95, 95 % lie within 19 % of the truth, and within 1.96 spreads.
+// the fit leaves over tells of it. Where the confidence is .95, 95 % lie within 19 % of the truth, and within
+// 1.96 spreads; and most voxels are.
 TEST(LocalWaves, ConfidenceAndSpreadHoldForNoiseThatNoHarmonicShows) {
   const image::Grid g = lattice(40, 40, 1, 1.64, 1.64, 10);
   const image::Mask mask = disc(g, 19.0);
   const Complex G = std::polar(2.1, 0.15);
   const Field wave = crossing(g, G);
-  for (const double noise_rad : {0.05})
-    for (const int smooth : {0, 1}) {
-      Random random(22);
-      double confident = 0, near = 0, within = 0, all = 0, spread = 0, errors = 0;
-      for (int map = 0; map < 4; ++map) {
-        std::vector<Complex> white(g.voxelCount()), noise(g.voxelCount());
-        for (Complex& w : white) w = noise_rad * Complex(random.normal(), random.normal());
-        for (int j = 0; j < 40; ++j)
-          for (int i = 0; i < 40; ++i) {
-            Complex sum = 0.0;
-            for (int b = -smooth; b <= smooth; ++b)
-              for (int a = -smooth; a <= smooth; ++a) sum += white[g.linear((i + a + 40) % 40, (j + b + 40) % 40, 0)];
-            noise[g.linear(i, j, 0)] = sum / (2.0 * smooth + 1.0);
-          }
-        const Field noisy = [&](const Eigen::Vector3d& p) {
-          const Eigen::Vector3d index = (g.direction.transpose() * (p - g.origin_lps_mm)).cwiseQuotient(g.spacing_mm);
-          return wave(p) + noise[g.linear(static_cast<int>(std::lround(index.x())), static_cast<int>(std::lround(index.y())), 0)];
-        };
-        const Inversion r = run({phases(g, noisy, 8, 0.0, random)}, mask);
-        for (std::size_t v = 0; v < mask.values.size(); ++v) {
-          if (!std::isfinite(r.magnitude_kPa.values[v])) continue;
-          const double value = static_cast<double>(r.magnitude_kPa.values[v]), off = std::abs(value - 2.1);
-          all += 1, spread += static_cast<double>(r.spread_kPa.values[v]), errors += off * off;
-          if (r.confidence.values[v] < 0.95F) continue;
-          confident += 1;
-          near += off <= 0.19 * 2.1 ? 1 : 0;
-          within += off <= 1.96 * static_cast<double>(r.spread_kPa.values[v]) ? 1 : 0;
+  constexpr double noise_rad = 0.05;
+  for (const int smooth : {0, 1}) {
+    Random random(22);
+    double confident = 0, near = 0, within = 0, all = 0, spread = 0, errors = 0;
+    for (int map = 0; map < 4; ++map) {
+      std::vector<Complex> white(g.voxelCount()), noise(g.voxelCount());
+      for (Complex& w : white) w = noise_rad * Complex(random.normal(), random.normal());
+      for (int j = 0; j < 40; ++j)
+        for (int i = 0; i < 40; ++i) {
+          Complex sum = 0.0;
+          for (int b = -smooth; b <= smooth; ++b)
+            for (int a = -smooth; a <= smooth; ++a) sum += white[g.linear((i + a + 40) % 40, (j + b + 40) % 40, 0)];
+          noise[g.linear(i, j, 0)] = sum / (2.0 * smooth + 1.0);
         }
+      const Field noisy = [&](const Eigen::Vector3d& p) {
+        const Eigen::Vector3d index = (g.direction.transpose() * (p - g.origin_lps_mm)).cwiseQuotient(g.spacing_mm);
+        return wave(p) + noise[g.linear(static_cast<int>(std::lround(index.x())), static_cast<int>(std::lround(index.y())), 0)];
+      };
+      const Inversion r = run({phases(g, noisy, 8, 0.0, random)}, mask);
+      for (std::size_t v = 0; v < mask.values.size(); ++v) {
+        if (!std::isfinite(r.magnitude_kPa.values[v])) continue;
+        const double value = static_cast<double>(r.magnitude_kPa.values[v]), off = std::abs(value - 2.1);
+        all += 1, spread += static_cast<double>(r.spread_kPa.values[v]), errors += off * off;
+        if (r.confidence.values[v] < 0.95F) continue;
+        confident += 1;
+        near += off <= 0.19 * 2.1 ? 1 : 0;
+        within += off <= 1.96 * static_cast<double>(r.spread_kPa.values[v]) ? 1 : 0;
       }
-      std::printf("noise %.2f rad over %d pixels: error %.3f kPa, spread %.3f; confident %.0f %%, of those %.1f %% within 19 %%, "
-                  "%.1f %% within 1.96 spreads\n",
-                  noise_rad, 2 * smooth + 1, std::sqrt(errors / all), spread / all, 100 * confident / all,
-                  100 * near / confident, 100 * within / confident);
-      if (confident > 0.02 * all) {
-        EXPECT_GE(near / confident, 0.95);
-        EXPECT_GE(within / confident, 0.85);
-      }
-      EXPECT_GE(spread / all, 0.5 * std::sqrt(errors / all));
     }
+    std::printf("noise %.2f rad over %d pixels: error %.3f kPa, spread %.3f; confident %.0f %%, of those %.1f %% within 19 %%, "
+                "%.1f %% within 1.96 spreads\n",
+                noise_rad, 2 * smooth + 1, std::sqrt(errors / all), spread / all, 100 * confident / all,
+                100 * near / confident, 100 * within / confident);
+    ASSERT_GT(confident, (smooth == 0 ? 0.8 : 0.6) * all);
+    EXPECT_GE(near / confident, 0.95);
+    EXPECT_GE(within / confident, 0.95);
+    EXPECT_GE(spread / all, 0.9 * std::sqrt(errors / all));
+  }
 }
 
 TEST(LocalWaves, ClippedPhasesAreFittedThroughWhatIsLeft) {
