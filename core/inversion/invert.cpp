@@ -272,6 +272,9 @@ void byLocalWaves(const Waves& waves, Inversion& out, const Progress& progress) 
                fitted.relativeVariance[v]);
   out.correlatedVoxels = fitted.correlatedVoxels;
   out.confidenceMeans = ConfidenceMeaning::ProbabilityWithin;
+  out.warnings.push_back(
+      "local waves are a trial: on one of five public livers they were 60 % too soft where their confidence was high; take "
+      "the figures from the laplacian");
 }
 
 }  // namespace
