@@ -1,5 +1,6 @@
 // The command line: parses, calls one verb, turns exceptions into one line and an exit code.
 #include <algorithm>
+#include <array>
 #include <clocale>
 #include <cstdio>
 #include <exception>
@@ -11,6 +12,7 @@
 #include "base/version.h"
 #include "verbs.h"
 
+namespace glisson::cli {
 namespace {
 
 int report(int code, const std::string& message) {
@@ -36,23 +38,8 @@ std::vector<std::string> withDashes(int argc, char** argv) {
   return words;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  using namespace glisson;
-  using namespace glisson::cli;
-  // Numbers are written the same way in every country.
-  std::setlocale(LC_ALL, "C");
-  std::locale::global(std::locale::classic());
-
-  CLI::App app{
-      "Glisson: patient-specific biomechanics for image-guided liver surgery.\nResearch use only, not for clinical "
-      "use.",
-      programName};
-  app.set_version_flag("--version", std::string("glisson-cli ") + version());
-  app.require_subcommand(1);
-  app.fallthrough();
-  Context context;
+/// Options that every verb takes. Returns that of the seed.
+CLI::Option* addCommonOptions(CLI::App& app, Context& context) {
   app.add_flag("--json", context.json, "print one JSON object to stdout and nothing else there");
   app.add_flag("--quiet,-q", context.quiet, "no progress, no notes");
   app.add_flag("--verbose,-v", context.verbose, "say more on stderr");
@@ -63,48 +50,29 @@ int main(int argc, char** argv) {
   app.add_option("--render-backend", context.renderBackend, "how pictures are drawn")
       ->check(CLI::IsMember({"auto", "egl", "x11"}));
   app.set_config("--config", "", "read options from an INI or TOML file");
+  return seed;
+}
 
-  addPhantom(app, context);
-  addScan(app, context);
-  addConvert(app, context);
-  addMeasure(app, context);
-  addInvert(app, context);
-  addAgree(app, context);
-  addPropose(app, context);
-  addPlan(app, context);
-  addRun(app, context);
-  addDemo(app, context);
-  addCohort(app, context);
-  addLive(app, context);
-  addExport(app, context);
-  addDeidentify(app, context);
-  addPacs(app, context);
-  addRender(app, context);
-  addReplay(app, context);
-  addValidate(app, context);
-  addStability(app, context);
-  addTradeoff(app, context);
-  addDocument(app, context);
+/// In the order in which --help lists them.
+constexpr std::array addVerbs = {addPhantom,   addScan,       addConvert, addMeasure, addInvert, addAgree,
+                                 addPropose,   addPlan,       addRun,     addDemo,    addCohort, addLive,
+                                 addExport,    addDeidentify, addPacs,    addRender,  addReplay, addValidate,
+                                 addStability, addTradeoff,   addDocument};
 
+/// More threads than cores gain nothing, and the thread library would complain in its own words.
+void setThreads(const Context& context) {
+  if (context.threads <= 0) return;
+  const int cores = threadCount();
+  if (context.threads > cores)
+    context.note("note: " + std::to_string(context.threads) + " threads were asked for, " + std::to_string(cores) +
+                 (cores == 1 ? " is" : " are") + " used: one per core");
+  setThreadCount(std::min(context.threads, cores));
+}
+
+/// Calls the verb that was parsed; exceptions become one line and an exit code.
+int act(const Context& context) {
   try {
-    app.parse(withDashes(argc, argv));
-  } catch (const CLI::Success& e) {
-    return app.exit(e);
-  } catch (const CLI::Error& e) {
-    // One line; CLI11 would write a second one.
-    return report(Usage, std::string(e.what()) + " (glisson-cli --help tells what there is)");
-  }
-  context.seedGiven = seed->count() > 0;
-
-  try {
-    // More threads than cores gain nothing, and the thread library would complain in its own words.
-    if (context.threads > 0) {
-      const int cores = threadCount();
-      if (context.threads > cores)
-        context.note("note: " + std::to_string(context.threads) + " threads were asked for, " + std::to_string(cores) +
-                     (cores == 1 ? " is" : " are") + " used: one per core");
-      setThreadCount(std::min(context.threads, cores));
-    }
+    setThreads(context);
     return context.action();
   } catch (const BadInput& e) {
     return report(BadInputCode, e.what());
@@ -117,4 +85,35 @@ int main(int argc, char** argv) {
   } catch (const std::exception& e) {
     return report(Failed, e.what());
   }
+}
+
+}  // namespace
+}  // namespace glisson::cli
+
+int main(int argc, char** argv) {
+  using namespace glisson::cli;
+  // Numbers are written the same way in every country.
+  std::setlocale(LC_ALL, "C");
+  std::locale::global(std::locale::classic());
+
+  CLI::App app{
+      "Glisson: patient-specific biomechanics for image-guided liver surgery.\nResearch use only, not for clinical "
+      "use.",
+      programName};
+  app.set_version_flag("--version", std::string("glisson-cli ") + glisson::version());
+  app.require_subcommand(1);
+  app.fallthrough();
+  Context context;
+  const CLI::Option* seed = addCommonOptions(app, context);
+  for (const auto add : addVerbs) add(app, context);
+  try {
+    app.parse(withDashes(argc, argv));
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::Error& e) {
+    // One line; CLI11 would write a second one.
+    return report(Usage, std::string(e.what()) + " (glisson-cli --help tells what there is)");
+  }
+  context.seedGiven = seed->count() > 0;
+  return act(context);
 }

@@ -64,8 +64,7 @@ std::string pathParameter(const OptionRow& o, PathKind kind, bool output, int in
     case PathKind::Volume:
       return element("image", std::string(" type=\"scalar\"") + (o.many ? " multiple=\"true\"" : ""),
                      common(o, alone ? "" : "-volume", alone ? "" : " (volume)", index) + channel);
-    case PathKind::Mask:
-      break;
+    case PathKind::Mask: break;
   }
   return element("image", " type=\"label\"",
                  common(o, alone ? "" : "-mask", alone ? "" : " (label map)", index) + channel);

@@ -57,8 +57,8 @@ RunAnswer answerOf(const std::filesystem::path& folder) {
   return answer;
 }
 
-/// How far the landmarks lie from where the run put them, both at rest under the scene's own drive: what the coarser cells
-/// of the live liver cost. Null where the live liver does not come to rest there.
+/// How far the landmarks lie from where the run put them, both at rest under the scene's own drive: what the coarser
+/// cells of the live liver cost. Null where the live liver does not come to rest there.
 Json againstRun(const retraction::LiveLivers& livers, const std::vector<Eigen::Vector3d>& watched, const RunAnswer& run,
                 const Progress& progress) {
   constexpr int most = 600;
@@ -102,8 +102,9 @@ void warnOfLast(const retraction::LiveAnswers& last, Json& warnings) {
   if (const std::string who = whoEndedBy(last, retraction::LiveOutcome::Slips); !who.empty())
     warnings.push_back("the bar slips with " + who + ": the liver does not bear the force asked for");
   if (const std::string who = whoEndedBy(last, retraction::LiveOutcome::Cuts); !who.empty())
-    warnings.push_back("the bar cuts into the liver with " + who +
-                       ": its cells are drawn apart there, and this state is no answer; use a smaller force or another place");
+    warnings.push_back(
+        "the bar cuts into the liver with " + who +
+        ": its cells are drawn apart there, and this state is no answer; use a smaller force or another place");
 }
 
 Json recordOf(const live::ServerStatistics& s, const retraction::LiveLivers& livers, std::size_t landmarks,
@@ -168,18 +169,13 @@ int serveScene(const Arguments& a, const Context& context) {
   const Progress progress = context.progress();
   const pipeline::Scene scene = pipeline::readScene(a.scene);
   const pipeline::Models models = pipeline::buildModels(scene, true, progress.part(0.0, 0.6));
-  // Without vessels the probes of the scene are followed.
-  const std::vector<Eigen::Vector3d>& watched =
-      models.landmarks_mm.empty() ? scene.outputs.probes_mm : models.landmarks_mm;
-  if (watched.empty())
-    throw BadInput(
-        "nothing to follow: the scene has neither vessels (a patient's MRI) nor probes; add {\"probe\": ...}");
+  const std::vector<Eigen::Vector3d>& watched = pipeline::followedPoints(scene, models);
   const std::optional<RunAnswer> run = a.run.empty() ? std::optional<RunAnswer>() : answerOf(a.run);
   const retraction::LiveKind kind = a.model == "contact"     ? retraction::LiveKind::Contact
                                     : a.model == "condensed" ? retraction::LiveKind::Condensed
                                                              : retraction::liveKindOf(scene.setup);
-  const retraction::LiveLivers livers = retraction::makeLive(
-      models.model, models.atlas ? &*models.atlas : nullptr, scene.setup, watched, kind, progress.part(0.6, 1.0));
+  const retraction::LiveLivers livers = retraction::makeLive(models.model, models.atlas ? &*models.atlas : nullptr,
+                                                             scene.setup, watched, kind, progress.part(0.6, 1.0));
   live::ServerOptions options = a.options;
   options.ras = a.frame == "ras";
   const auto told = [&](int port) { context.note(listening(options, port, watched.size())); };
@@ -212,9 +208,10 @@ void addLive(CLI::App& app, Context& context) {
                    "folder of a run of the same scene: tells what the coarser cells of the live liver cost "
                    "(discretisation_mm)")
       ->type_name(value::folder);
-  verb->add_option("--model", a->model,
-                   "contact: a rigid bar in large deformation; condensed: a linear patch, microseconds an answer; auto: as "
-                   "the scene's retractor")
+  verb->add_option(
+          "--model", a->model,
+          "contact: a rigid bar in large deformation; condensed: a linear patch, microseconds an answer; auto: as "
+          "the scene's retractor")
       ->check(CLI::IsMember({"auto", "contact", "condensed"}));
   verb->add_option("--frame", a->frame, "coordinates of the messages")->check(CLI::IsMember({"ras", "lps"}));
   verb->callback([&context, a] { context.action = [&context, a] { return serveScene(*a, context); }; });

@@ -2,11 +2,7 @@
 
 #include "base/error.h"
 #include "diagnostics_json.h"
-#include "image/io.h"
-#include "pipeline/sources.h"
-#include "roi/contour_io.h"
-#include "roi/polygon.h"
-#include "roi/propose.h"
+#include "pipeline/outline_proposal.h"
 #include "slicer_xml.h"
 #include "verbs.h"
 
@@ -22,42 +18,23 @@ struct Arguments {
 
 int propose(const Arguments& a, const Context& context) {
   if (context.output.empty()) throw BadInput("say where the proposal goes: --output roi.json, or a mask file");
-  const Progress progress = context.progress();
-  const pipeline::AnatomicalImage in = pipeline::loadImage(a.image, progress.part(0.0, 0.3));
-  Eigen::Vector3d seed_lps(a.seed[0], a.seed[1], a.seed[2]);
-  if (a.index) seed_lps = in.volume.grid.indexToLps(seed_lps);
-  const roi::Proposal p = roi::propose(in.volume, seed_lps, a.options, progress.part(0.3, 1.0));
-  std::vector<std::string> warnings = in.warnings;
-  warnings.insert(warnings.end(), p.notes.begin(), p.notes.end());
-  Diagnostics diagnostics = in.diagnostics;
-  Diagnostics own;
-  own.add(DiagnosticCode::ProposalOnly);
-  if (p.touchesBorder) own.add(DiagnosticCode::ProposalAtBorder);
-  diagnostics.add(own);
-  refuseIfStrict(context, diagnostics, warnings);
-  for (const std::string& w : own.texts()) warnings.push_back(w);
-  std::size_t polygons = 0;
-  if (image::isVolumeFile(context.output)) {
-    image::writeVolume(context.output, p.mask);
-  } else {
-    roi::ContourStack contours = roi::contoursOf(p.mask);
-    contours.frameOfReferenceUid = in.frameOfReferenceUid;
-    // Half a pixel: the stairs of the mask go, its area stays.
-    for (roi::Polygon& polygon : contours.polygons)
-      polygon = roi::simplified(polygon, 0.5 * in.volume.grid.spacing_mm.head<2>().minCoeff());
-    polygons = contours.polygons.size();
-    roi::writeContours(context.output, contours);
-  }
+  const Eigen::Vector3d seed(a.seed[0], a.seed[1], a.seed[2]);
+  const pipeline::OutlineProposal proposed =
+      pipeline::proposeOutline(a.image, {seed, a.index}, a.options, context.progress());
+  refuseIfStrict(context, proposed.diagnostics, proposed.warnings);
+  const roi::Proposal& p = proposed.proposal;
+  const Eigen::Vector3d& seed_lps = proposed.seed_lps_mm;
+  const std::size_t polygons = pipeline::writeProposal(context.output, proposed);
   Json j = {{"volume_mL", p.volume_mL}, {"intensities", {p.low, p.high}}, {"touches_border", p.touchesBorder}};
   j["seed_lps_mm"] = {seed_lps.x(), seed_lps.y(), seed_lps.z()};
   if (polygons > 0) j["polygons"] = polygons;
-  j["warnings"] = warnings;
-  j["diagnostics"] = diagnosticsJson(diagnostics, warnings);
+  j["warnings"] = proposed.warnings;
+  j["diagnostics"] = diagnosticsJson(proposed.diagnostics, proposed.warnings);
   j["files"] = {context.output.string()};
   std::ostringstream text;
   text << p.volume_mL << " mL of intensities " << p.low << " to " << p.high << " written to " << context.output.string()
        << "\n";
-  for (const std::string& w : warnings) text << "warning: " << w << "\n";
+  for (const std::string& w : proposed.warnings) text << "warning: " << w << "\n";
   context.print(j, text.str());
   return Ok;
 }

@@ -57,8 +57,9 @@ void addRender(CLI::App& app, Context& context) {
       if (const auto record = pipeline::recordOf(a->run); std::filesystem::is_regular_file(record))
         for (const std::string& name : pipeline::filesOfAnotherRun(record))
           if (name == pipeline::pictureFileName)
-            throw BadInput("the pictures' data in this folder are not those of its run.json: another run has written "
-                           "into it; run the scene again into a folder of its own");
+            throw BadInput(
+                "the pictures' data in this folder are not those of its run.json: another run has written "
+                "into it; run the scene again into a folder of its own");
       const pipeline::PictureData data = pipeline::readPictureFile(run / pipeline::pictureFileName);
       if (!data.scene.valid)
         throw BadInput("this run did not converge, or gave no deformation: it is not drawn; see run.json");

@@ -26,7 +26,8 @@ std::string summary(const pipeline::RunResult& r) {
     << "strain      max " << p.max_strain << ", 95 % below " << p.p95_strain << "; largest rotation "
     << p.max_rotation_deg << " deg\n";
   if (p.contact)
-    t << "bar         " << (p.contact->answered() ? "" : "no answer; its last state: ") << "travels " << p.contact->travel_mm << " mm and bears " << p.contact->force_N.dot(p.contact->hoist)
+    t << "bar         " << (p.contact->answered() ? "" : "no answer; its last state: ") << "travels "
+      << p.contact->travel_mm << " mm and bears " << p.contact->force_N.dot(p.contact->hoist)
       << " N along its hoist (resultant " << p.contact->force_N.norm() << " N) over " << p.contact->footprint_mm2
       << " mm2 seen along it\n";
   if (p.linearTrusted)
@@ -59,7 +60,8 @@ std::string whyOf(const pipeline::RunResult& r) {
 /// What to change where a solve without a bar in contact did not converge; that of the bar says so itself.
 std::string adviceFor(const pipeline::Scene& scene, const pipeline::RunResult& r) {
   if (r.primary.contact) return "";
-  if (r.primary.kinematics != retraction::Kinematics::Linear) return ": lower the load, spread it or stiffen the supports";
+  if (r.primary.kinematics != retraction::Kinematics::Linear)
+    return ": lower the load, spread it or stiffen the supports";
   return scene.setup.solver.kind == mechanics::SolverKind::Auto
              ? ": use smaller cells, less contrast between the moduli or a smaller Poisson's ratio"
              : ": raise \"iterations\" or use solver \"auto\"";
@@ -101,7 +103,8 @@ int runScene(const pipeline::Scene& scene, const pipeline::RunOptions& options, 
   context.print(Json::parse(r.json), (before ? before(r) : std::string()) + summary(r));
   refuseIfStrict(context, r.diagnostics, r.warnings);
   if (r.primary.solver.converged() && (!r.atlas || r.atlas->solver.converged())) return Ok;
-  std::cerr << "glisson-cli: " << whyOf(r) << "; the result is marked and not drawn" << adviceFor(scene, r) << std::endl;
+  std::cerr << "glisson-cli: " << whyOf(r) << "; the result is marked and not drawn" << adviceFor(scene, r)
+            << std::endl;
   return NotConverged;
 }
 
@@ -118,7 +121,8 @@ void addRun(CLI::App& app, Context& context) {
   verb->add_flag("--colour-blind", *colourBlind, "orange and blue instead of red and blue");
   verb->add_flag("--override", *overrideChecks, "take MRI and elastogram of other days or patients nevertheless");
   auto howSure = std::make_shared<bool>(false);
-  verb->add_flag("--uncertainty", *howSure, "say how sure the answer is, and what drives it (as \"uncertainty\": true)");
+  verb->add_flag("--uncertainty", *howSure,
+                 "say how sure the answer is, and what drives it (as \"uncertainty\": true)");
   addSlicerXml(*verb, {"Retract the liver", {PathKind::Folder}});
   verb->callback([&context, scenePath, colourBlind, overrideChecks, howSure] {
     context.action = [&context, scenePath, colourBlind, overrideChecks, howSure] {

@@ -150,9 +150,7 @@ int scan(const Arguments& a, const Context& context) {
   }
   j["patients"] = patientsOf(found);
   const bool none = found.series.empty();
-  if (none)
-    all.add(DiagnosticCode::NoImageSeries,
-            {{"files", static_cast<std::int64_t>(found.skipped.size())}});
+  if (none) all.add(DiagnosticCode::NoImageSeries, {{"files", static_cast<std::int64_t>(found.skipped.size())}});
   j["diagnostics"] = diagnosticsJson(all, warnings);
   if (!none) refuseIfStrict(context, all, warnings);
   context.print(j, text.str());

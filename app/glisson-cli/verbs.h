@@ -40,8 +40,8 @@ struct Context {
 
   /// Progress on stderr: a bar on a terminal, lines in a log, nothing when quiet. Ctrl+C cancels.
   Progress progress() const;
-  /// Prints the object to stdout when --json, else the human text. An object with warnings and no diagnostics gets them;
-  /// with --strict it is refused (BadInput).
+  /// Prints the object to stdout when --json, else the human text. An object with warnings and no diagnostics gets
+  /// them; with --strict it is refused (BadInput).
   void print(const Json& object, const std::string& text) const;
   /// One line on stderr, unless quiet.
   void note(const std::string& line) const;

@@ -50,8 +50,8 @@ int main(int argc, char** argv) {
   parser.addHelpOption();
   parser.addVersionOption();
   parser.addPositionalArgument(QStringLiteral("folder"),
-                               QStringLiteral("DICOM folder, DICOMDIR, ZIP archive or case.json to open."),
-                               QStringLiteral("[folder]"));
+                               QStringLiteral("DICOM folder, DICOMDIR, ZIP archive, volumes or case.json to open."),
+                               QStringLiteral("[folder or files...]"));
   const QCommandLineOption synthetic(QStringLiteral("synthetic"), QStringLiteral("Open the synthetic patient."));
   const QCommandLineOption theme(QStringLiteral("theme"),
                                  QStringLiteral("dark or light; otherwise as chosen last, or as the desktop is."),
@@ -64,13 +64,17 @@ int main(int argc, char** argv) {
                                 QStringLiteral("name"), QStringLiteral("segment"));
   const QCommandLineOption slice(QStringLiteral("slice"), QStringLiteral("With --screenshot: MRI slice, from 1."),
                                  QStringLiteral("n"), QStringLiteral("0"));
+  const QCommandLineOption planes(
+      QStringLiteral("planes"),
+      QStringLiteral("With --screenshot: Segment with three planes, stiffness over the MRI."));
   const QCommandLineOption screenshot(
       QStringLiteral("screenshot"),
       QStringLiteral("Save a picture of the window as PNG (step all: into this folder) and quit."),
       QStringLiteral("file"));
   const QCommandLineOption language(QStringLiteral("language"),
-                                    QStringLiteral("en or de; otherwise the one chosen last, or that of the desktop."), QStringLiteral("code"));
-  parser.addOptions({synthetic, theme, language, screenshot, step, slice, outlines, run});
+                                    QStringLiteral("en or de; otherwise the one chosen last, or that of the desktop."),
+                                    QStringLiteral("code"));
+  parser.addOptions({synthetic, theme, language, screenshot, step, slice, planes, outlines, run});
   if (asksAboutTheProgram(argc, argv)) {
     const QCoreApplication withoutDisplay(argc, argv);
     parser.process(withoutDisplay);  // answers and ends
@@ -82,8 +86,8 @@ int main(int argc, char** argv) {
   parser.process(app);
   const std::vector<Step> wantedSteps = stepsNamed(parser.value(step));
   const auto wantedTheme = glisson::panels::themeNamed(parser.value(theme));
-  if (wantedSteps.empty() || (parser.isSet(theme) && !wantedTheme) || parser.positionalArguments().size() > 1) {
-    std::cerr << "glisson: unknown step or theme, or more than one folder; see glisson --help\n";
+  if (wantedSteps.empty() || (parser.isSet(theme) && !wantedTheme)) {
+    std::cerr << "glisson: unknown step or theme; see glisson --help\n";
     return 2;
   }
 
@@ -104,13 +108,14 @@ int main(int argc, char** argv) {
   window.show();
   const bool opening = parser.isSet(synthetic) || !parser.positionalArguments().isEmpty();
   if (parser.isSet(screenshot)) {
-    auto* picture = new glisson::Screenshot(window, {parser.value(screenshot), wantedSteps, parser.value(outlines),
-                                                     parser.isSet(run), parser.value(slice).toInt() - 1});
+    auto* picture =
+        new glisson::Screenshot(window, {parser.value(screenshot), wantedSteps, parser.value(outlines),
+                                         parser.isSet(run), parser.value(slice).toInt() - 1, parser.isSet(planes)});
     picture->start(opening);
   }
   if (parser.isSet(synthetic))
     window.session().openSynthetic();
   else if (opening)
-    window.session().openPath(parser.positionalArguments().front());
+    window.session().openPaths(parser.positionalArguments());
   return QApplication::exec();
 }

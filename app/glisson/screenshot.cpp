@@ -12,6 +12,7 @@
 #include "panels/compare_page.h"
 #include "panels/live_bar.h"
 #include "panels/main_window.h"
+#include "panels/plane_views.h"
 #include "panels/segment_page.h"
 #include "session/model_preview.h"
 #include "views/scene_view.h"
@@ -80,14 +81,24 @@ void Screenshot::settle() {
   window_.showStep(step);
   if (step == session::Step::Retract && wish_.run) window_.findChild<panels::LiveBar*>()->setLive(true);
   if (wish_.slice >= 0) window_.findChild<views::SliceView*>(QStringLiteral("mriView"))->setSlice(wish_.slice);
+  if (step == session::Step::Segment && wish_.planes) showPlanes();
   QTimer::singleShot(settle_ms, this, &Screenshot::take);
+}
+
+void Screenshot::showPlanes() {
+  auto* page = window_.findChild<panels::SegmentPage*>();
+  if (page->planes()->isHidden()) page->run(tools::Command::Planes);
+  page->setFusion(0.5);
 }
 
 void Screenshot::take() {
   const auto scenes = window_.findChildren<views::SceneView*>();
   const auto* live = window_.findChild<panels::LiveBar*>();
-  // The model is still being made, or a picture of it, or the livers are still on their way.
-  if (window_.session().preview().busy() || !std::ranges::all_of(scenes, &views::SceneView::isSettled) ||
+  const auto* page = window_.findChild<panels::SegmentPage*>();
+  const bool planesWait = wish_.planes && !(page->planes()->both()[0]->hasVolume() &&
+                                            (wish_.outlines.isEmpty() || window_.session().statistics().region));
+  // The model is still being made, or a picture of it, or the livers or other planes are still on their way.
+  if (planesWait || window_.session().preview().busy() || !std::ranges::all_of(scenes, &views::SceneView::isSettled) ||
       (live->isLive() && !live->isAtRest())) {
     QTimer::singleShot(settle_ms, this, &Screenshot::take);
     return;

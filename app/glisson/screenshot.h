@@ -22,7 +22,8 @@ class Screenshot : public QObject {
     std::vector<session::Step> steps{session::Step::Load};
     QString outlines;  ///< imported after loading; empty: none
     bool run = false;
-    int slice = -1;  ///< of the MRI; −1: as it opens
+    int slice = -1;       ///< of the MRI; −1: as it opens
+    bool planes = false;  ///< Segment: three planes, the map over the MRI
   };
   Screenshot(panels::MainWindow& window, Wish wish);
   /// Call once the window is shown. opening: whether a patient is being opened.
@@ -33,6 +34,7 @@ class Screenshot : public QObject {
   void whenReady();
   void settle();
   void take();
+  void showPlanes();
   panels::MainWindow& window_;
   Wish wish_;
   std::size_t next_ = 0;

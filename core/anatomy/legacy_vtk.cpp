@@ -77,7 +77,8 @@ void checkCellList(const std::filesystem::path& path, std::istream& in, bool bin
   if (read != numbers) refuseSurface(path, "its list of cells contradicts itself");
 }
 
-/// The same from version 5 on: the two arrays that follow have to be there in full; VTK's reader goes on where they end.
+/// The same from version 5 on: the two arrays that follow have to be there in full; VTK's reader goes on where they
+/// end.
 void checkCellArrays(const std::filesystem::path& path, std::istream& in, bool binary, double offsets, double ids) {
   for (const auto& [name, count] : {std::pair<std::string, double>("OFFSETS", offsets), {"CONNECTIVITY", ids}}) {
     std::string line;
@@ -95,61 +96,126 @@ void checkCellArrays(const std::filesystem::path& path, std::istream& in, bool b
   }
 }
 
+/// A word that a section begins with.
+bool isSection(const std::string& word) {
+  return among(word, {"POINTS",
+                      "VERTICES",
+                      "LINES",
+                      "POLYGONS",
+                      "TRIANGLE_STRIPS",
+                      "CELLS",
+                      "CELL_TYPES",
+                      "POINT_DATA",
+                      "CELL_DATA",
+                      "FIELD",
+                      "SCALARS",
+                      "COLOR_SCALARS",
+                      "LOOKUP_TABLE",
+                      "VECTORS",
+                      "NORMALS",
+                      "TENSORS",
+                      "TEXTURE_COORDINATES",
+                      "INFORMATION",
+                      "OFFSETS",
+                      "CONNECTIVITY",
+                      "DIMENSIONS",
+                      "GLOBAL_IDS",
+                      "PEDIGREE_IDS",
+                      "EDGE_FLAGS"});
+}
+
+/// Goes through a file line by line; every section must fit into it.
+class LegacyVtk {
+ public:
+  explicit LegacyVtk(const std::filesystem::path& path)
+      : path_(path), bytes_(static_cast<double>(std::filesystem::file_size(path))), in_(path, std::ios::binary) {}
+
+  void check() {
+    checkHeader();
+    std::string line;
+    while (nextLine(in_, line))
+      if (line.size() <= longestHeaderLine) checkLine(line);  // longer ones are values, not words
+    if (!dataset_) refuseSurface(path_, "it holds neither polygons nor cells");
+  }
+
+ private:
+  void checkHeader();
+  void checkLine(const std::string& line);
+  void checkCounts(const std::vector<std::string>& words, const std::vector<double>& counts, bool array) const;
+  void checkPoints(const std::vector<std::string>& words, const std::vector<double>& counts);
+  void checkCells(const std::string& section, const std::vector<double>& counts);
+
+  const std::filesystem::path& path_;
+  double bytes_;
+  std::ifstream in_;
+  bool listsOfOldKind_ = false;  ///< before version 5
+  bool binary_ = false;
+  bool dataset_ = false;
+};
+
+void LegacyVtk::checkHeader() {
+  std::string line;
+  const std::string title = "# vtk DataFile Version";
+  if (!nextLine(in_, line) || !line.starts_with(title))
+    refuseSurface(path_, "it is no legacy VTK file, although its extension says so");
+  listsOfOldKind_ = std::atof(line.c_str() + title.size()) < 5.0;
+  for (int n = 0; n < 2; ++n)
+    if (!nextLine(in_, line) || line.size() > longestHeaderLine)
+      refuseSurface(path_, "a line of its header is missing or longer than 255 characters");
+  binary_ = line.starts_with("BINARY") || line.starts_with("binary");
+}
+
+void LegacyVtk::checkCounts(const std::vector<std::string>& words, const std::vector<double>& counts,
+                            bool array) const {
+  // One value takes a byte at least (a bit in binary files takes none: they are surfaces' neither).
+  double product = 1.0;
+  for (const double c : counts) {
+    if (c < 0.0 || c > bytes_)
+      refuseSurface(path_, "it announces more " + words.front().substr(0, 30) + " than it can hold");
+    product *= std::max(c, 1.0);
+  }
+  if (array && product > bytes_) refuseSurface(path_, "it announces an array larger than the file");
+}
+
+void LegacyVtk::checkPoints(const std::vector<std::string>& words, const std::vector<double>& counts) {
+  if (counts.empty()) return;
+  if (3.0 * counts.front() > bytes_) refuseSurface(path_, "it announces more POINTS than it can hold");
+  if (binary_ && words.size() > 2 && among(words[2], {"float", "double"}))
+    in_.seekg(static_cast<std::streamoff>(3.0 * counts.front()) * (words[2] == "float" ? 4 : 8), std::ios::cur);
+}
+
+void LegacyVtk::checkCells(const std::string& section, const std::vector<double>& counts) {
+  if (counts.size() != 2) refuseSurface(path_, "its " + section + " do not say how many they are");
+  if (listsOfOldKind_)
+    checkCellList(path_, in_, binary_, counts[0], counts[1]);
+  else if (counts[0] > 0.0)
+    checkCellArrays(path_, in_, binary_, counts[0], counts[1]);
+}
+
+void LegacyVtk::checkLine(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> words;
+  for (std::string word; words.size() < 8 && stream >> word;) words.push_back(word);
+  if (words.empty()) return;
+  const std::string& first = words.front();
+  if (first == "DATASET") {
+    dataset_ = true;
+    if (words.size() < 2 || !among(words[1], {"POLYDATA", "UNSTRUCTURED_GRID"}))
+      refuseSurface(path_, "it holds neither polygons nor cells");
+    return;
+  }
+  const bool array = words.size() == 4 && isType(words[3]);
+  if (!isSection(first) && !array) return;
+  const std::vector<double> counts = countsIn(words);
+  checkCounts(words, counts, array);
+  if (first == "POINTS") checkPoints(words, counts);
+  if (among(first, {"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS", "CELLS"})) checkCells(first, counts);
+}
+
 }  // namespace
 
 void checkLegacyVtk(const std::filesystem::path& path) {
-  const auto bytes = static_cast<double>(std::filesystem::file_size(path));
-  std::ifstream in(path, std::ios::binary);
-  std::string line;
-  const std::string title = "# vtk DataFile Version";
-  if (!nextLine(in, line) || !line.starts_with(title))
-    refuseSurface(path, "it is no legacy VTK file, although its extension says so");
-  const bool listsOfOldKind = std::atof(line.c_str() + title.size()) < 5.0;
-  for (int n = 0; n < 2; ++n)
-    if (!nextLine(in, line) || line.size() > longestHeaderLine)
-      refuseSurface(path, "a line of its header is missing or longer than 255 characters");
-  const bool binary = line.starts_with("BINARY") || line.starts_with("binary");
-  bool dataset = false;
-  while (nextLine(in, line)) {
-    if (line.size() > longestHeaderLine) continue;  // values, not words
-    std::istringstream stream(line);
-    std::vector<std::string> words;
-    for (std::string word; words.size() < 8 && stream >> word;) words.push_back(word);
-    if (words.empty()) continue;
-    const std::string& first = words.front();
-    if (first == "DATASET") {
-      dataset = true;
-      if (words.size() < 2 || !among(words[1], {"POLYDATA", "UNSTRUCTURED_GRID"}))
-        refuseSurface(path, "it holds neither polygons nor cells");
-      continue;
-    }
-    const bool section = among(first, {"POINTS", "VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS", "CELLS", "CELL_TYPES",
-                                       "POINT_DATA", "CELL_DATA", "FIELD", "SCALARS", "COLOR_SCALARS", "LOOKUP_TABLE",
-                                       "VECTORS", "NORMALS", "TENSORS", "TEXTURE_COORDINATES", "INFORMATION", "OFFSETS",
-                                       "CONNECTIVITY", "DIMENSIONS", "GLOBAL_IDS", "PEDIGREE_IDS", "EDGE_FLAGS"});
-    const bool array = words.size() == 4 && isType(words[3]);
-    if (!section && !array) continue;
-    // One value takes a byte at least (a bit in binary files takes none: they are surfaces' neither).
-    const std::vector<double> counts = countsIn(words);
-    double product = 1.0;
-    for (const double c : counts) {
-      if (c < 0.0 || c > bytes) refuseSurface(path, "it announces more " + first.substr(0, 30) + " than it can hold");
-      product *= std::max(c, 1.0);
-    }
-    if (array && product > bytes) refuseSurface(path, "it announces an array larger than the file");
-    if (first == "POINTS" && !counts.empty() && 3.0 * counts.front() > bytes)
-      refuseSurface(path, "it announces more POINTS than it can hold");
-    if (first == "POINTS" && binary && !counts.empty() && words.size() > 2 && among(words[2], {"float", "double"}))
-      in.seekg(static_cast<std::streamoff>(3.0 * counts.front()) * (words[2] == "float" ? 4 : 8), std::ios::cur);
-    if (among(first, {"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS", "CELLS"})) {
-      if (counts.size() != 2) refuseSurface(path, "its " + first + " do not say how many they are");
-      if (listsOfOldKind)
-        checkCellList(path, in, binary, counts[0], counts[1]);
-      else if (counts[0] > 0.0)
-        checkCellArrays(path, in, binary, counts[0], counts[1]);
-    }
-  }
-  if (!dataset) refuseSurface(path, "it holds neither polygons nor cells");
+  LegacyVtk(path).check();
 }
 
 }  // namespace glisson::anatomy::detail

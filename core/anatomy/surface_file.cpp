@@ -52,9 +52,9 @@ struct SameCorners {
   bool turned = false, against = false;
 };
 
-/// Triangles without area go, so do points that none names. Of triangles with the same corners the first stays (one shell
-/// of a surface that is stored twice), or, where two of them are turned against each other (the wall between bodies that
-/// touch), none.
+/// Triangles without area go, so do points that none names. Of triangles with the same corners the first stays (one
+/// shell of a surface that is stored twice), or, where two of them are turned against each other (the wall between
+/// bodies that touch), none.
 TriangleMesh tidied(const TriangleMesh& mesh, double within_mm, Walls walls) {
   Places places(within_mm);
   std::vector<int> to(static_cast<std::size_t>(mesh.vertices_lps_mm.cols()), -1);

@@ -52,6 +52,134 @@ SurfaceFile binaryStl(std::ifstream& in, const std::string& header, std::uint32_
   return out;
 }
 
+/// The nodes and cells of a Gmsh file, section by section.
+class GmshFile {
+ public:
+  explicit GmshFile(const std::filesystem::path& path) : path_(path), in_(path) {}
+  SurfaceFile read();
+
+ private:
+  using Triangle = std::array<int, 3>;
+
+  long count();
+  /// The next node that a cell names, by its place among the points.
+  int corner();
+  void readFormat();
+  void readNodes();
+  void readCells();
+  /// The type of a cell, once what stands before its corners has been read.
+  long cellType();
+  void addTetrahedron();
+
+  const std::filesystem::path& path_;
+  std::ifstream in_;
+  bool second_ = false;  ///< version 2
+  std::map<long, int> index_;
+  std::vector<Eigen::Vector3d> points_;
+  std::map<Triangle, Triangle> open_;  ///< faces of one tetrahedron only; sorted corners: corners from outside
+  std::vector<Triangle> drawn_;
+  SurfaceFile out_;
+};
+
+long GmshFile::count() {
+  long n = -1;
+  if (!(in_ >> n) || n < 0) refuseSurface(path_, "a count is missing");
+  return n;
+}
+
+int GmshFile::corner() {
+  long id = 0;
+  if (!(in_ >> id)) refuseSurface(path_, "it ends within a cell");
+  const auto at = index_.find(id);
+  if (at == index_.end()) refuseSurface(path_, "a cell names node " + std::to_string(id) + ", which is not there");
+  return at->second;
+}
+
+void GmshFile::readFormat() {
+  double version = 0;
+  int binary = 0;
+  in_ >> version >> binary;
+  if (!(version >= 2 && version < 3) || binary != 0)
+    refuseSurface(path_, "only ASCII Gmsh files of versions 1 and 2 are read; save it as version 2 ASCII");
+  second_ = true;
+}
+
+void GmshFile::readNodes() {
+  for (long n = count(); n > 0; --n) {
+    long id = 0;
+    Eigen::Vector3d p;
+    if (!(in_ >> id >> p.x() >> p.y() >> p.z())) refuseSurface(path_, "it ends within its nodes");
+    if (!index_.emplace(id, static_cast<int>(points_.size())).second)
+      refuseSurface(path_, "node " + std::to_string(id) + " is there twice");
+    points_.push_back(p);
+  }
+}
+
+long GmshFile::cellType() {
+  long id = 0, type = 0, more = 0;
+  if (!(in_ >> id >> type)) refuseSurface(path_, "it ends within its cells");
+  if (second_) {
+    if (!(in_ >> more) || more < 0 || more > 100) refuseSurface(path_, "a cell's tags cannot be read");
+    for (long tag = 0; more > 0; --more) in_ >> tag;
+  } else {
+    long region = 0;
+    if (!(in_ >> region >> region >> more)) refuseSurface(path_, "it ends within its cells");
+  }
+  return type;
+}
+
+void GmshFile::addTetrahedron() {
+  std::array<int, 4> t{};
+  for (int& c : t) c = corner();
+  ++out_.volumeCells;
+  const Eigen::Vector3d o = points_[static_cast<std::size_t>(t[0])];
+  const double six = (points_[static_cast<std::size_t>(t[1])] - o)
+                         .cross(points_[static_cast<std::size_t>(t[2])] - o)
+                         .dot(points_[static_cast<std::size_t>(t[3])] - o);
+  if (six < 0) std::swap(t[0], t[1]);
+  for (const auto& f : {Triangle{t[0], t[2], t[1]}, Triangle{t[0], t[1], t[3]}, Triangle{t[1], t[2], t[3]},
+                        Triangle{t[0], t[3], t[2]}}) {
+    auto key = f;
+    std::sort(key.begin(), key.end());
+    if (!open_.emplace(key, f).second) open_.erase(key);
+  }
+}
+
+void GmshFile::readCells() {
+  enum Type : long { Line = 1, TriangleCell = 2, Tetrahedron = 4, PointCell = 15 };
+  for (long n = count(); n > 0; --n) {
+    const long type = cellType();
+    if (type == TriangleCell) {
+      const int a = corner(), b = corner(), c = corner();
+      drawn_.push_back({a, b, c});
+    } else if (type == Tetrahedron) {
+      addTetrahedron();
+    } else if (type == PointCell || type == Line) {
+      for (int c = 0; c < (type == Line ? 2 : 1); ++c) corner();
+    } else {
+      refuseSurface(path_, "it has cells of Gmsh type " + std::to_string(type) + "; triangles and tetrahedra are read");
+    }
+  }
+}
+
+SurfaceFile GmshFile::read() {
+  for (std::string word; in_ >> word;) {
+    if (word == "$MeshFormat")
+      readFormat();
+    else if (word == "$NOD" || word == "$Nodes")
+      readNodes();
+    else if (word == "$ELM" || word == "$Elements")
+      readCells();
+  }
+  if (out_.volumeCells > 0) {
+    drawn_.clear();
+    for (const auto& [key, face] : open_) drawn_.push_back(face);
+  }
+  out_.points = points_.size();
+  setMesh(out_.mesh, points_, drawn_);
+  return std::move(out_);
+}
+
 }  // namespace
 
 SurfaceFile readStl(const std::filesystem::path& path) {
@@ -130,88 +258,7 @@ SurfaceFile readObj(const std::filesystem::path& path) {
 
 /// The nodes and tetrahedra of a Gmsh file as a surface: the faces that belong to one tetrahedron.
 SurfaceFile readGmsh(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  std::string word;
-  std::map<long, int> index;
-  std::vector<Eigen::Vector3d> points;
-  std::map<std::array<int, 3>, std::array<int, 3>> open;  // sorted corners: corners from outside
-  std::vector<std::array<int, 3>> drawn;
-  SurfaceFile out;
-  const auto count = [&] {
-    long n = -1;
-    if (!(in >> n) || n < 0) refuseSurface(path, "a count is missing");
-    return n;
-  };
-  const auto corner = [&] {
-    long id = 0;
-    if (!(in >> id)) refuseSurface(path, "it ends within a cell");
-    const auto at = index.find(id);
-    if (at == index.end()) refuseSurface(path, "a cell names node " + std::to_string(id) + ", which is not there");
-    return at->second;
-  };
-  bool second = false;
-  while (in >> word) {
-    if (word == "$MeshFormat") {
-      double version = 0;
-      int binary = 0;
-      in >> version >> binary;
-      if (!(version >= 2 && version < 3) || binary != 0)
-        refuseSurface(path, "only ASCII Gmsh files of versions 1 and 2 are read; save it as version 2 ASCII");
-      second = true;
-    } else if (word == "$NOD" || word == "$Nodes") {
-      for (long n = count(); n > 0; --n) {
-        long id = 0;
-        Eigen::Vector3d p;
-        if (!(in >> id >> p.x() >> p.y() >> p.z())) refuseSurface(path, "it ends within its nodes");
-        if (!index.emplace(id, static_cast<int>(points.size())).second)
-          refuseSurface(path, "node " + std::to_string(id) + " is there twice");
-        points.push_back(p);
-      }
-    } else if (word == "$ELM" || word == "$Elements") {
-      for (long n = count(); n > 0; --n) {
-        long id = 0, type = 0, more = 0;
-        if (!(in >> id >> type)) refuseSurface(path, "it ends within its cells");
-        if (second) {
-          if (!(in >> more) || more < 0 || more > 100) refuseSurface(path, "a cell's tags cannot be read");
-          for (long tag = 0; more > 0; --more) in >> tag;
-        } else {
-          long region = 0;
-          if (!(in >> region >> region >> more)) refuseSurface(path, "it ends within its cells");
-        }
-        if (type == 2) {
-          const int a = corner(), b = corner(), c = corner();
-          drawn.push_back({a, b, c});
-        } else if (type == 4) {
-          std::array<int, 4> t{};
-          for (int& c : t) c = corner();
-          ++out.volumeCells;
-          const Eigen::Vector3d o = points[static_cast<std::size_t>(t[0])];
-          const double six = (points[static_cast<std::size_t>(t[1])] - o)
-                                 .cross(points[static_cast<std::size_t>(t[2])] - o)
-                                 .dot(points[static_cast<std::size_t>(t[3])] - o);
-          if (six < 0) std::swap(t[0], t[1]);
-          for (const auto& f : {std::array{t[0], t[2], t[1]}, std::array{t[0], t[1], t[3]},
-                                std::array{t[1], t[2], t[3]}, std::array{t[0], t[3], t[2]}}) {
-            auto key = f;
-            std::sort(key.begin(), key.end());
-            if (!open.emplace(key, f).second) open.erase(key);
-          }
-        } else if (type == 15 || type == 1) {
-          for (int c = 0; c < (type == 1 ? 2 : 1); ++c) corner();
-        } else {
-          refuseSurface(path,
-                        "it has cells of Gmsh type " + std::to_string(type) + "; triangles and tetrahedra are read");
-        }
-      }
-    }
-  }
-  if (out.volumeCells > 0) {
-    drawn.clear();
-    for (const auto& [key, face] : open) drawn.push_back(face);
-  }
-  out.points = points.size();
-  setMesh(out.mesh, points, drawn);
-  return out;
+  return GmshFile(path).read();
 }
 
 }  // namespace glisson::anatomy::detail

@@ -24,7 +24,7 @@ struct VesselOptions {
 
 /// The vessels inside the liver. Empty where none was found (see note).
 struct VesselModel {
-  image::Mask mask;                                ///< isotropic working grid along the MRI's axes, not the MRI grid
+  image::Mask mask;      ///< isotropic working grid along the MRI's axes, not the MRI grid
   TriangleMesh surface;  ///< closed; a branch is at least about as wide as the smallest vessel that is looked for
   std::vector<Eigen::Vector3d> centreline_lps_mm;  ///< landmarks, about one per working voxel along the vessels
   std::vector<double> radius_mm;                   ///< per landmark

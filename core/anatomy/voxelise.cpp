@@ -99,7 +99,8 @@ Shell shellOf(TriangleMesh mesh, const image::Grid& grid) {
     high = high.cwiseMax(index);
   }
   const Eigen::Vector3d last = (grid.size - Eigen::Vector3i::Ones()).cast<double>();
-  const Eigen::Vector3d from = low.array().floor().max(0.0).min(last.array()), to = high.array().ceil().max(0.0).min(last.array());
+  const Eigen::Vector3d from = low.array().floor().max(0.0).min(last.array()),
+                        to = high.array().ceil().max(0.0).min(last.array());
   image::Grid box = grid;
   s.first = from.cast<int>();
   box.size = (to - from).cast<int>() + Eigen::Vector3i::Ones();
@@ -204,12 +205,10 @@ image::Mask voxelise(const TriangleMesh& mesh, const image::Grid& grid, Diagnost
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return shells[a].voxels > shells[b].voxels; });
-  const roi::Arrangement arrangement = roi::arrangeSets(order, [&](std::size_t a, std::size_t b) {
-    return relationOf(shells[a], shells[b], grid.voxelVolume_mm3());
-  });
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return arrangement.level[a] < arrangement.level[b];
-  });
+  const roi::Arrangement arrangement = roi::arrangeSets(
+      order, [&](std::size_t a, std::size_t b) { return relationOf(shells[a], shells[b], grid.voxelVolume_mm3()); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return arrangement.level[a] < arrangement.level[b]; });
   image::Mask mask(grid);
   for (const std::size_t s : order) {
     if (arrangement.level[s] < 0) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "base/diagnostic_text.h"
 #include "base/error.h"
 
 namespace glisson {
@@ -43,12 +44,9 @@ std::string_view nameOf(DiagnosticCode code) {
 
 std::string_view nameOf(Severity severity) {
   switch (severity) {
-    case Severity::Note:
-      return "note";
-    case Severity::Warning:
-      return "warning";
-    default:
-      return "error";
+    case Severity::Note: return "note";
+    case Severity::Warning: return "warning";
+    default: return "error";
   }
 }
 
@@ -57,17 +55,26 @@ Severity Diagnostic::severity() const {
 }
 
 std::string Diagnostic::text() const {
-  const std::string_view pattern = entryOf(code).text;
+  return filledIn(templateOf(code), *this);
+}
+
+std::string_view templateOf(DiagnosticCode code) {
+  return entryOf(code).text;
+}
+
+std::string filledIn(std::string_view text, const Diagnostic& diagnostic) {
+  const auto& arguments = diagnostic.arguments;
   std::string out;
-  for (std::size_t at = 0; at < pattern.size();) {
-    const std::size_t open = pattern.find('{', at);
-    out += pattern.substr(at, open - at);
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t open = text.find('{', at);
+    out += text.substr(at, open - at);
     if (open == std::string_view::npos) break;
-    const std::size_t close = pattern.find('}', open);
-    const std::string_view key = pattern.substr(open + 1, close - open - 1);
+    const std::size_t close = text.find('}', open);
+    const std::string_view key = text.substr(open + 1, close - open - 1);
     const auto found = std::find_if(arguments.begin(), arguments.end(), [&](const auto& a) { return a.first == key; });
     if (found == arguments.end())
-      throw BadArgument("diagnostic " + std::string(nameOf(code)) + " lacks its argument " + std::string(key));
+      throw BadArgument("diagnostic " + std::string(nameOf(diagnostic.code)) + " lacks its argument " +
+                        std::string(key));
     out += inWords(found->second);
     at = close + 1;
   }

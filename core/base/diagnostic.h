@@ -12,8 +12,8 @@ namespace glisson {
 
 enum class Severity { Note, Warning, Error };
 
-/// What can be said about inputs and results. One entry each in diagnostics.def, with its name in JSON, its severity and
-/// its English text.
+/// What can be said about inputs and results. One entry each in diagnostics.def, with its name in JSON, its severity
+/// and its English text.
 enum class DiagnosticCode {
 #define GLISSON_DIAGNOSTIC(code, name, severity, text) code,
 #include "base/diagnostics.def"

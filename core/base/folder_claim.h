@@ -8,7 +8,8 @@ namespace glisson {
 /// behind, whatever becomes of the program.
 class FolderClaim {
  public:
-  /// Throws BadInput where another one holds it. A folder that cannot be locked (some network drives) counts as claimed.
+  /// Throws BadInput where another one holds it. A folder that cannot be locked (some network drives) counts as
+  /// claimed.
   explicit FolderClaim(const std::filesystem::path& folder);
   ~FolderClaim();
   FolderClaim(const FolderClaim&) = delete;

@@ -1,6 +1,7 @@
 #include "base/progress.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "base/error.h"
 
@@ -8,6 +9,8 @@ namespace glisson {
 
 void Progress::report(double fraction, const std::string& what) const {
   check();
+  static std::mutex oneAtATime;  // two solves may report at once, and no sink has to know
+  const std::lock_guard guard(oneAtATime);
   if (sink_) sink_(from_ + (to_ - from_) * std::clamp(fraction, 0.0, 1.0), what);
 }
 

@@ -39,17 +39,19 @@ std::string keyOf(const std::string& scene, const std::string& recordKey) {
 }
 
 double at(const Json& j, const char* key) {
-  return j.contains("difference") && j["difference"].is_object() && j["difference"].contains(key) && j["difference"][key].is_number()
+  return j.contains("difference") && j["difference"].is_object() && j["difference"].contains(key) &&
+                 j["difference"][key].is_number()
              ? j["difference"][key].get<double>()
              : none;
 }
 
 /// Words between quotation marks that are the program's own: none of them comes out of a patient's files.
 bool ownWord(const std::string& word) {
-  static constexpr std::array own = {"anatomical", "magnitude",  "wave",     "stiffness", "confidence", "colour-copy",
-                                     "other",      "phase",      "liver",    "mri",       "mre",        "roi",
-                                     "mask",       "scene.json", "mri_dir",  "Pa",        "kPa",        "shear",
-                                     "youngs",     "sop_instance_uid",       "polygons",  "points_lps_mm"};
+  static constexpr std::array own = {"anatomical",  "magnitude",    "wave",  "stiffness",  "confidence",
+                                     "colour-copy", "other",        "phase", "liver",      "mri",
+                                     "mre",         "roi",          "mask",  "scene.json", "mri_dir",
+                                     "Pa",          "kPa",          "shear", "youngs",     "sop_instance_uid",
+                                     "polygons",    "points_lps_mm"};
   return word.starts_with("--") || std::find(own.begin(), own.end(), word) != own.end();
 }
 
@@ -79,6 +81,141 @@ std::string withoutQuotedNames(const std::string& message, const std::string& id
   return out;
 }
 
+/// The chosen patients run again: what is known of each of their variations, and what is still to be run.
+class ChosenRuns {
+ public:
+  ChosenRuns(Summary& summary, const std::map<std::string, std::string>& scenes, const CohortOptions& options)
+      : summary_(summary), scenes_(scenes), options_(options) {}
+
+  /// Takes over what an earlier call has left, and makes a job of everything else.
+  void collect();
+  /// Runs the jobs; each result is kept as soon as it is there.
+  void run(const Progress& progress);
+  /// Gives the summary what is known, in the order of the variations.
+  void report();
+
+ private:
+  struct Task {
+    std::string id, variation, key;
+    bool pictures = false;
+  };
+
+  fs::path cacheOf(const std::string& id) const { return options_.output / "cases" / id / "chosen.json"; }
+  fs::path pictureOf(const std::string& id, const char* name) const {
+    return options_.output / "figures" / (id + "-" + name);
+  }
+  /// What earlier calls know of a patient's variations; an empty object where there is nothing.
+  Json readCache(const std::string& id) const;
+  /// Whether a kept result is that of the same variation, with its pictures where it has any.
+  bool holds(const Json& cache, const std::string& id, const Variation& v, const std::string& key, bool first) const;
+  void addJob(const std::string& id, const Variation& v, const std::string& key, bool first);
+  void keepResult(std::size_t job, const JobOutcome& outcome);
+
+  Summary& summary_;
+  const std::map<std::string, std::string>& scenes_;
+  const CohortOptions& options_;
+  const PrivateFolder work_;
+  const int parallel_ = options_.jobs > 0 ? options_.jobs : jobsThatFit(expectedPeak_MB);
+  std::vector<Task> tasks_;
+  std::vector<Job> jobs_;  ///< one per task
+  /// What a patient's variations gave, by name; kept in the patient's folder so that another call goes on from there.
+  std::map<std::string, Json> known_;
+};
+
+Json ChosenRuns::readCache(const std::string& id) const {
+  Json cache = fs::is_regular_file(cacheOf(id)) ? Json::parse(readWhole(cacheOf(id)), nullptr, false) : Json();
+  return cache.is_object() ? cache : Json::object();
+}
+
+bool ChosenRuns::holds(const Json& cache, const std::string& id, const Variation& v, const std::string& key,
+                       bool first) const {
+  if (!cache.contains(v.name) || cache[v.name].value("key", "") != key) return false;
+  if (!first || cache[v.name].contains("no_picture")) return true;
+  return std::all_of(shown.begin(), shown.end(),
+                     [&](const char* name) { return fs::is_regular_file(pictureOf(id, name)); });
+}
+
+void ChosenRuns::addJob(const std::string& id, const Variation& v, const std::string& key, bool first) {
+  Json text = Json::parse(v.scene);
+  text["outputs"] = first ? Json::array({"vessels", "overlay"}) : Json::array();
+  const std::string name = id + "-" + std::to_string(jobs_.size());
+  writeWhole(work_.path() / (name + ".json"), text.dump(1));
+  tasks_.push_back({id, v.name, key, first});
+  jobs_.push_back({id + ", " + v.name,
+                   {"run", (work_.path() / (name + ".json")).string(), "--output", (work_.path() / name).string(),
+                    "--json", "--quiet", "--threads", std::to_string(threadsEach(parallel_))}});
+}
+
+void ChosenRuns::collect() {
+  for (const Chosen& c : summary_.chosen) {
+    const auto scene = scenes_.find(c.id);
+    if (scene == scenes_.end()) continue;
+    const auto record = std::find_if(summary_.records.begin(), summary_.records.end(),
+                                     [&](const CaseRecord& r) { return r.outcome.id == c.id; });
+    const Json cache = readCache(c.id);
+    Json kept = Json::object();
+    std::vector<Variation> list = variations(scene->second);
+    if (!options_.sensitivity) list.resize(1);
+    for (const Variation& v : list) {
+      const std::string key = keyOf(v.scene, record->key);
+      const bool first = v.name == list.front().name;
+      if (holds(cache, c.id, v, key, first))
+        kept[v.name] = cache[v.name];
+      else
+        addJob(c.id, v, key, first);
+    }
+    known_[c.id] = kept;
+  }
+}
+
+void ChosenRuns::keepResult(std::size_t job, const JobOutcome& o) {
+  const Task& t = tasks_[job];
+  const fs::path folder = jobs_[job].arguments[3];
+  const Json j = o.exitCode == 0 ? Json::parse(o.standardOutput, nullptr, false) : Json();
+  Json result = {{"key", t.key}, {"mean_mm", nullptr}, {"at_retractor_mm", nullptr}};
+  if (j.is_object()) {
+    result["mean_mm"] = at(j, "mean_mm");
+    result["at_retractor_mm"] = at(j, "at_retractor_mm");
+  }
+  if (t.pictures) {
+    if (const std::string why = noPictureBecause(j); !why.empty()) result["no_picture"] = why;
+    fs::create_directories(options_.output / "figures");
+    for (const char* name : shown)
+      if (fs::is_regular_file(folder / name))
+        fs::copy_file(folder / name, pictureOf(t.id, name), fs::copy_options::overwrite_existing);
+  }
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  known_[t.id][t.variation] = result;
+  writeWhole(cacheOf(t.id), known_[t.id].dump(1) + "\n");
+}
+
+void ChosenRuns::run(const Progress& progress) {
+  runJobs(
+      options_.executable, jobs_, parallel_, [this](std::size_t i, const JobOutcome& o) { keepResult(i, o); },
+      progress);
+}
+
+void ChosenRuns::report() {
+  for (const Chosen& c : summary_.chosen) {
+    const auto scene = scenes_.find(c.id);
+    if (scene == scenes_.end()) continue;
+    Json ordered = Json::object();
+    for (const Variation& v : variations(scene->second)) {
+      if (!known_[c.id].contains(v.name)) continue;
+      const Json& result = ordered[v.name] = known_[c.id][v.name];
+      if (result.contains("no_picture")) summary_.pictureNotes[c.id] = result["no_picture"];
+      const auto value = [&](const char* key) {
+        return result.contains(key) && result[key].is_number() ? result[key].get<double>() : none;
+      };
+      summary_.sensitivity.push_back({v.name, c.id, value("mean_mm"), value("at_retractor_mm")});
+    }
+    writeWhole(cacheOf(c.id), ordered.dump(1) + "\n");
+    for (const char* name : shown)
+      if (fs::is_regular_file(pictureOf(c.id, name))) summary_.pictures[c.id].push_back(pictureOf(c.id, name));
+  }
+}
+
 }  // namespace
 
 std::string anonymous(std::string message, const fs::path& folder, const std::string& id) {
@@ -101,95 +238,10 @@ std::string anonymous(std::string message, const fs::path& folder, const std::st
 
 void studyChosen(Summary& summary, const std::map<std::string, std::string>& scenes, const CohortOptions& options,
                  const Progress& progress) {
-  const PrivateFolder work;
-  const int parallel = options.jobs > 0 ? options.jobs : jobsThatFit(expectedPeak_MB);
-  const std::string threads = std::to_string(threadsEach(parallel));
-  struct Task {
-    std::string id, variation, key;
-    bool pictures = false;
-  };
-  std::vector<Task> tasks;
-  std::vector<Job> jobs;
-  // What a patient's variations gave, by name; kept beside the result so that another call goes on from there.
-  std::map<std::string, Json> known;
-  const auto cacheOf = [&](const std::string& id) { return options.output / "cases" / id / "chosen.json"; };
-  for (const Chosen& c : summary.chosen) {
-    const auto scene = scenes.find(c.id);
-    if (scene == scenes.end()) continue;
-    const auto record = std::find_if(summary.records.begin(), summary.records.end(),
-                                     [&](const CaseRecord& r) { return r.outcome.id == c.id; });
-    Json cache = fs::is_regular_file(cacheOf(c.id)) ? Json::parse(readWhole(cacheOf(c.id)), nullptr, false) : Json();
-    if (!cache.is_object()) cache = Json::object();
-    Json kept = Json::object();
-    std::vector<Variation> list = variations(scene->second);
-    if (!options.sensitivity) list.resize(1);
-    for (const Variation& v : list) {
-      const std::string key = keyOf(v.scene, record->key);
-      const bool first = v.name == list.front().name;
-      bool have = cache.contains(v.name) && cache[v.name].value("key", "") == key;
-      for (const char* name : shown)
-        have = have && (!first || cache[v.name].contains("no_picture") ||
-                        fs::is_regular_file(options.output / "figures" / (c.id + "-" + name)));
-      if (have) {
-        kept[v.name] = cache[v.name];
-        continue;
-      }
-      Json text = Json::parse(v.scene);
-      text["outputs"] = first ? Json::array({"vessels", "overlay"}) : Json::array();
-      const std::string name = c.id + "-" + std::to_string(jobs.size());
-      writeWhole(work.path() / (name + ".json"), text.dump(1));
-      tasks.push_back({c.id, v.name, key, first});
-      jobs.push_back({c.id + ", " + v.name,
-                      {"run", (work.path() / (name + ".json")).string(), "--output", (work.path() / name).string(),
-                       "--json", "--quiet", "--threads", threads}});
-    }
-    known[c.id] = kept;
-  }
-  runJobs(
-      options.executable, jobs, parallel,
-      [&](std::size_t i, const JobOutcome& o) {
-        const Task& t = tasks[i];
-        const Json j = o.exitCode == 0 ? Json::parse(o.standardOutput, nullptr, false) : Json();
-        Json result = {{"key", t.key}, {"mean_mm", nullptr}, {"at_retractor_mm", nullptr}};
-        if (j.is_object()) {
-          result["mean_mm"] = at(j, "mean_mm");
-          result["at_retractor_mm"] = at(j, "at_retractor_mm");
-        }
-        if (const std::string why = noPictureBecause(j); t.pictures && !why.empty()) result["no_picture"] = why;
-        if (t.pictures) {
-          const fs::path drawn = jobs[i].arguments[3];
-          fs::create_directories(options.output / "figures");
-          for (const char* name : shown)
-            if (fs::is_regular_file(drawn / name))
-              fs::copy_file(drawn / name, options.output / "figures" / (t.id + "-" + name),
-                            fs::copy_options::overwrite_existing);
-        }
-        std::error_code ignored;
-        fs::remove_all(jobs[i].arguments[3], ignored);
-        known[t.id][t.variation] = result;
-        writeWhole(cacheOf(t.id), known[t.id].dump(1) + "\n");
-      },
-      progress);
-
-  for (const Chosen& c : summary.chosen) {
-    const auto scene = scenes.find(c.id);
-    if (scene == scenes.end()) continue;
-    Json ordered = Json::object();
-    for (const Variation& v : variations(scene->second)) {
-      if (!known[c.id].contains(v.name)) continue;
-      ordered[v.name] = known[c.id][v.name];
-      if (ordered[v.name].contains("no_picture")) summary.pictureNotes[c.id] = ordered[v.name]["no_picture"];
-      const auto value = [&](const char* key) {
-        const Json& x = ordered[v.name][key];
-        return x.is_number() ? x.get<double>() : none;
-      };
-      summary.sensitivity.push_back({v.name, c.id, value("mean_mm"), value("at_retractor_mm")});
-    }
-    writeWhole(cacheOf(c.id), ordered.dump(1) + "\n");
-    for (const char* name : shown)
-      if (fs::is_regular_file(options.output / "figures" / (c.id + "-" + name)))
-        summary.pictures[c.id].push_back(options.output / "figures" / (c.id + "-" + name));
-  }
+  ChosenRuns runs(summary, scenes, options);
+  runs.collect();
+  runs.run(progress);
+  runs.report();
 }
 
 }  // namespace glisson::cohort::detail

@@ -129,71 +129,90 @@ void writeTimings(const fs::path& output, const std::map<std::string, std::pair<
   writeWhole(output / "timings.csv", csv.text());
 }
 
-/// Measures and retracts every patient that has no result yet.
-std::vector<CaseOutcome> runPatients(const std::vector<Patient>& patients, const CohortOptions& options,
-                                     const Progress& progress) {
-  std::map<std::string, CaseOutcome> outcomes;
-  std::vector<Job> jobs;
-  std::vector<std::size_t> patientOf;
-  const PrivateFolder work;
-  const int parallel = options.jobs > 0 ? options.jobs : jobsThatFit(expectedPeak_MB);
-  const std::string threads = std::to_string(threadsEach(parallel));
-  for (std::size_t i = 0; i < patients.size(); ++i) {
-    const Patient& p = patients[i];
-    if (auto r = stillGood(options.output, p, options.reports)) {
-      r->outcome.resumed = true;
-      outcomes[p.place.id] = r->outcome;
-      continue;
-    }
-    if (p.scene.empty()) {
-      CaseRecord r = recordOf(p.place.id, p.key, "", "");
-      r.outcome = {CaseOutcome::Status::Rejected, p.place.id, p.refused, false};
-      writeWhole(resultOf(options.output, p.place.id), toJson(r));
-      outcomes[p.place.id] = r.outcome;
-      continue;
-    }
-    const fs::path scene = work.path() / (p.place.id + ".json");
-    writeWhole(scene, options.reports ? withReport(p.scene) : p.scene);
-    Job measure{p.place.id + " measure",
-                {"measure", "--mre", p.files.mre.string(), "--roi", p.files.roi.string(), "--mri", p.files.mri.string(),
-                 "--json", "--quiet", "--threads", threads}};
-    measure.arguments.insert(measure.arguments.end(), p.files.meaning.begin(), p.files.meaning.end());
-    jobs.push_back(std::move(measure));
-    jobs.push_back({p.place.id,
-                    {"run", scene.string(), "--output", (work.path() / p.place.id).string(), "--json", "--quiet",
-                     "--threads", threads}});
-    patientOf.insert(patientOf.end(), {i, i});
+/// Measures and retracts every patient that has no result yet: two jobs for each, "measure" and "run".
+class PatientRuns {
+ public:
+  PatientRuns(const std::vector<Patient>& patients, const CohortOptions& options)
+      : patients_(patients), options_(options) {}
+
+  /// One outcome per patient, in their order.
+  std::vector<CaseOutcome> run(const Progress& progress);
+
+ private:
+  /// Takes over what is there already or was refused; else adds the two jobs.
+  void begin(const Patient& p);
+  /// Keeps what a patient's two jobs gave, and forgets the jobs.
+  void keep(const Patient& p, JobOutcome& measured, JobOutcome& retracted);
+
+  const std::vector<Patient>& patients_;
+  const CohortOptions& options_;
+  const PrivateFolder work_;
+  const int parallel_ = options_.jobs > 0 ? options_.jobs : jobsThatFit(expectedPeak_MB);
+  std::vector<Job> jobs_;                ///< two per patient
+  std::vector<const Patient*> patient_;  ///< of each two jobs
+  std::map<std::string, CaseOutcome> outcomes_;
+  std::map<std::string, std::pair<double, double>> spent_;  ///< seconds and MB
+};
+
+void PatientRuns::begin(const Patient& p) {
+  if (auto r = stillGood(options_.output, p, options_.reports)) {
+    r->outcome.resumed = true;
+    outcomes_[p.place.id] = r->outcome;
+    return;
   }
-  std::vector<JobOutcome> ended(jobs.size());
-  std::vector<bool> there(jobs.size(), false);
-  std::map<std::string, std::pair<double, double>> spent;
+  if (p.scene.empty()) {
+    CaseRecord r = recordOf(p.place.id, p.key, "", "");
+    r.outcome = {CaseOutcome::Status::Rejected, p.place.id, p.refused, false};
+    writeWhole(resultOf(options_.output, p.place.id), toJson(r));
+    outcomes_[p.place.id] = r.outcome;
+    return;
+  }
+  const fs::path scene = work_.path() / (p.place.id + ".json");
+  writeWhole(scene, options_.reports ? withReport(p.scene) : p.scene);
+  const std::string threads = std::to_string(threadsEach(parallel_));
+  Job measure{p.place.id + " measure",
+              {"measure", "--mre", p.files.mre.string(), "--roi", p.files.roi.string(), "--mri", p.files.mri.string(),
+               "--json", "--quiet", "--threads", threads}};
+  measure.arguments.insert(measure.arguments.end(), p.files.meaning.begin(), p.files.meaning.end());
+  jobs_.push_back(std::move(measure));
+  jobs_.push_back({p.place.id,
+                   {"run", scene.string(), "--output", (work_.path() / p.place.id).string(), "--json", "--quiet",
+                    "--threads", threads}});
+  patient_.push_back(&p);
+}
+
+void PatientRuns::keep(const Patient& p, JobOutcome& measured, JobOutcome& retracted) {
+  CaseRecord r = recordOf(p.place.id, p.key, measured.exitCode == 0 ? measured.standardOutput : "",
+                          retracted.exitCode == 0 ? retracted.standardOutput : "");
+  for (std::string& w : r.warnings) w = detail::anonymous(w, p.place.folder, p.place.id);
+  r.outcome = outcomeOf(p.place.id, retracted, p.place.folder);
+  if (r.outcome.status == CaseOutcome::Status::Done && measured.exitCode != 0)
+    r.warnings.push_back(detail::notMeasured + outcomeOf(p.place.id, measured, p.place.folder).reason);
+  if (options_.reports) keepReport(work_.path() / p.place.id, reportOf(options_.output, p.place.id));
+  writeWhole(resultOf(options_.output, p.place.id), toJson(r));
+  outcomes_[p.place.id] = r.outcome;
+  spent_[p.place.id] = {measured.seconds + retracted.seconds, std::max(measured.peak_MB, retracted.peak_MB)};
+  measured = retracted = {};
+  std::error_code ignored;
+  fs::remove_all(work_.path() / p.place.id, ignored);
+}
+
+std::vector<CaseOutcome> PatientRuns::run(const Progress& progress) {
+  for (const Patient& p : patients_) begin(p);
+  std::vector<JobOutcome> ended(jobs_.size());
+  std::vector<bool> there(jobs_.size(), false);
   runJobs(
-      options.executable, jobs, parallel,
+      options_.executable, jobs_, parallel_,
       [&](std::size_t i, const JobOutcome& o) {
         ended[i] = o;
         there[i] = true;
         const std::size_t first = i - i % 2;
-        if (!there[first] || !there[first + 1]) return;
-        const Patient& p = patients[patientOf[i]];
-        const JobOutcome &measured = ended[first], &retracted = ended[first + 1];
-        CaseRecord r = recordOf(p.place.id, p.key, measured.exitCode == 0 ? measured.standardOutput : "",
-                                retracted.exitCode == 0 ? retracted.standardOutput : "");
-        for (std::string& w : r.warnings) w = detail::anonymous(w, p.place.folder, p.place.id);
-        r.outcome = outcomeOf(p.place.id, retracted, p.place.folder);
-        if (r.outcome.status == CaseOutcome::Status::Done && measured.exitCode != 0)
-          r.warnings.push_back(detail::notMeasured + outcomeOf(p.place.id, measured, p.place.folder).reason);
-        if (options.reports) keepReport(work.path() / p.place.id, reportOf(options.output, p.place.id));
-        writeWhole(resultOf(options.output, p.place.id), toJson(r));
-        outcomes[p.place.id] = r.outcome;
-        spent[p.place.id] = {measured.seconds + retracted.seconds, std::max(measured.peak_MB, retracted.peak_MB)};
-        ended[first] = ended[first + 1] = {};
-        std::error_code ignored;
-        fs::remove_all(work.path() / p.place.id, ignored);
+        if (there[first] && there[first + 1]) keep(*patient_[i / 2], ended[first], ended[first + 1]);
       },
       progress);
-  if (!spent.empty()) writeTimings(options.output, spent);
+  if (!spent_.empty()) writeTimings(options_.output, spent_);
   std::vector<CaseOutcome> out;
-  for (const Patient& p : patients) out.push_back(outcomes[p.place.id]);
+  for (const Patient& p : patients_) out.push_back(outcomes_[p.place.id]);
   return out;
 }
 
@@ -243,7 +262,7 @@ CohortResult runCohort(const fs::path& folder, const CohortOptions& options, con
   }
   CohortResult result;
   const bool whole = options.shards == 1;
-  result.cases = runPatients(patients, options, progress.part(0.05, whole ? 0.8 : 1.0));
+  result.cases = PatientRuns(patients, options).run(progress.part(0.05, whole ? 0.8 : 1.0));
   for (const CaseOutcome& c : result.cases) result.files.push_back(resultOf(options.output, c.id));
   // What a shard must be put together with.
   writeWhole(options.output / "shard.json", Json({{"schema", "glisson/cohort-shard/1"},

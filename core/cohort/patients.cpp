@@ -118,7 +118,9 @@ std::vector<PatientFolder> findPatients(const fs::path& cohort) {
     if (!filesBelow(entry.path()).empty()) folders.push_back(fs::absolute(entry.path()));
   }
   if (folders.empty())
-    throw BadInput("no patient was found: the cohort's folder must hold one folder per patient, with files in it");
+    throw BadInput(
+        "no patient was found: the cohort's folder must hold one folder per patient, with files in it; links are not "
+        "followed");
   std::sort(folders.begin(), folders.end());
   const std::size_t digits = std::max<std::size_t>(3, std::to_string(folders.size()).size());
   std::vector<PatientFolder> out;

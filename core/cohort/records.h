@@ -21,15 +21,15 @@ struct CaseRecord {
   double vessel_mean_mm = 0.0, vessel_beyond_5mm = 0.0;
   double travel_mm = 0.0, atlas_travel_mm = 0.0;  ///< of a rigid bar, with either stiffness
   double travel_difference_mm = 0.0;              ///< measured less atlas
-  double pose_height_mm = 0.0;        ///< of the bar above the lowest point of the right lobe
-  double discretisation_mm = 0.0;    ///< of a displacement, at its worst cell
-  double difference_error_mm = 0.0;  ///< discretisation error of at_retractor_mm
+  double pose_height_mm = 0.0;                    ///< of the bar above the lowest point of the right lobe
+  double discretisation_mm = 0.0;                 ///< of a displacement, at its worst cell
+  double difference_error_mm = 0.0;               ///< discretisation error of at_retractor_mm
   double volume_mL = 0.0, p95_strain = 0.0, rotation_deg = 0.0;
   long long dofs = 0;
   bool linear_valid = false;
   bool kinematics_valid = false;  ///< the theory that was used holds
   std::string kinematics;         ///< that were used
-  bool drawable = true;  ///< both predictions are deformations: converged, no cell inside out
+  bool drawable = true;           ///< both predictions are deformations: converged, no cell inside out
   std::vector<std::string> warnings;
   bool measured() const;  ///< has a stiffness
 };

@@ -134,8 +134,7 @@ void reservations(report::Page& page, const Summary& s) {
                  " the theory that was used does not hold: strains or rotations are larger than it allows for, or the "
                  "bar folds cells of the surface (in the median patient 5 % of the liver strain by more than " +
                  percent(spreadOf(strain).median) + ", and the largest rotation is " +
-                 orDash(spreadOf(rotation).median) +
-                 "°). The differences are those of the model that was asked for.");
+                 orDash(spreadOf(rotation).median) + "°). The differences are those of the model that was asked for.");
   const Spread e = spreadOf(error);
   if (e.n > 0)
     page.paragraph("The largest discretisation error of a displacement, estimated from cells twice as large, is " +

@@ -31,8 +31,9 @@ bool setTool(Json& scene, const char* key, const Json& value) {
 }
 
 bool hasPatch(const Json& scene) {
-  return std::any_of(scene["loads"].begin(), scene["loads"].end(),
-                     [](const Json& l) { return l.value("kind", "") == "retractor" && l.value("contact", "") == "patch"; });
+  return std::any_of(scene["loads"].begin(), scene["loads"].end(), [](const Json& l) {
+    return l.value("kind", "") == "retractor" && l.value("contact", "") == "patch";
+  });
 }
 
 }  // namespace

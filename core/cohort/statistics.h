@@ -32,8 +32,8 @@ struct RetractionStudy {
   std::vector<double> mean_mm, at_retractor_mm;  ///< one per patient that is left
   std::vector<double> travel_mm;                 ///< |difference| of the bar's travel, of those with a rigid bar
   Spread mean, atRetractor, travel;
-  double fractionWithinVoxel = 0.0;  ///< mean difference at most 1.64 mm
-  double fractionSignificant = 0.0;  ///< at the retractor at least 5 mm
+  double fractionWithinVoxel = 0.0;        ///< mean difference at most 1.64 mm
+  double fractionSignificant = 0.0;        ///< at the retractor at least 5 mm
   double fractionTravelSignificant = 0.0;  ///< the bar's travel differs by at least 5 mm
 };
 RetractionStudy retractionStudy(const std::vector<CaseRecord>& records);

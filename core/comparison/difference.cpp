@@ -66,12 +66,9 @@ void compareContacts(const retraction::RigidContact& a, const retraction::RigidC
     d.equal_lift = {a.travel_mm, a.force_N.dot(a.hoist), b.force_N.dot(b.hoist), false};
     return;
   }
-  // Both forces along the paths that are drawn, neither brought to the answers' cells: what the coarse cells add, they
-  // add to both.
-  double lift_mm = std::min(a.travel_mm, b.travel_mm);
-  for (const retraction::RigidContact* c : {&a, &b})
-    if (!c->path.empty()) lift_mm = std::min(lift_mm, c->path.back()[0]);
-  d.equal_lift = {lift_mm, retraction::forceAt(a.path, lift_mm), retraction::forceAt(b.path, lift_mm), true};
+  // At the smaller of the two travels one answer bears its own force; the other's is on the way there.
+  const double lift_mm = std::min(a.travel_mm, b.travel_mm);
+  d.equal_lift = {lift_mm, retraction::answersForceAt(a, lift_mm), retraction::answersForceAt(b, lift_mm), true};
 }
 
 }  // namespace

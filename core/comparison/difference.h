@@ -18,16 +18,16 @@ struct Difference {
   /// Of a rigid bar: its travel in the one less that in the other; the mean over its window at rest; the mean over the
   /// contact weighted by the pressures of both.
   std::optional<double> travel_mm, window_at_rest_mm, contact_mean_mm;
-  /// What the bar takes in each where it has travelled equally far, N: of the answers, if both have travelled alike, else
-  /// by the forces met on the way, on the path, which is followed on cells coarser than the answers', and as far as both
-  /// paths go.
+  /// What the bar takes in each where it has travelled equally far, N: of the answers, if both have travelled alike,
+  /// else at the smaller of their travels, where one bears its own force, and the other what retraction::answersForceAt
+  /// says: its path, followed on coarser cells, brought to its answer.
   struct EqualLift {
     double travel_mm = 0.0, force_N = 0.0, other_force_N = 0.0;
     bool alongPath = true;  ///< false: both answers have this travel, and the forces are theirs
   };
   std::optional<EqualLift> equal_lift;
-  bool clinically_significant = false;               ///< at the retractor (else the maximum) ≥ 5 mm
-  std::vector<double> vessel_mm;                     ///< per vessel landmark, where there are any
+  bool clinically_significant = false;  ///< at the retractor (else the maximum) ≥ 5 mm
+  std::vector<double> vessel_mm;        ///< per vessel landmark, where there are any
   double vesselMean_mm = 0.0, vesselP95_mm = 0.0, vesselMax_mm = 0.0;
   double vesselFractionBeyond = 0.0;  ///< share of landmarks ≥ 5 mm apart
 };

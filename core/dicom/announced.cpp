@@ -39,7 +39,8 @@ Announced announcedBy(DcmDataset& data) {
   a.images = countOf(data, DCM_ImagesInAcquisition);
   a.slices = countOf(data, DCM_NumberOfSlices);
   const std::string maker = text(data, DCM_Manufacturer);
-  if (a.slices == 0 && maker.starts_with("Philips")) a.slices = privateCount(data, 0x2001, 0x18, "Philips Imaging DD 001");
+  if (a.slices == 0 && maker.starts_with("Philips"))
+    a.slices = privateCount(data, 0x2001, 0x18, "Philips Imaging DD 001");
   if (a.slices == 0 && maker.starts_with("GE")) a.slices = privateCount(data, 0x0021, 0x4F, "GEMS_RELA_01");
   a.concatenationUid = shownText(data, DCM_ConcatenationUID);
   a.part = countOf(data, DCM_InConcatenationNumber);

@@ -136,7 +136,8 @@ class Unpacker {
     const fs::path place = std::exchange(pending_, {});
     std::error_code failed;
     fs::create_directories((root_ / place).parent_path(), failed);
-    descriptor_ = failed ? -1 : open((root_ / place).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+    descriptor_ =
+        failed ? -1 : open((root_ / place).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
     if (descriptor_ < 0)
       skip(place.string(), "occurs twice in the archive, or its name cannot be used; the first one counts");
   }

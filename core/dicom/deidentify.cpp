@@ -68,14 +68,10 @@ std::string dummyFor(DcmElement& element, const std::string& old, Case& c) {
   if (tag == DCM_PatientName || tag == DCM_PatientID) return c.pseudonym;
   if (tag == DCM_ROIName || tag == DCM_SegmentLabel || tag == DCM_TrackingID) return structureName(old, ++c.structures);
   switch (element.ident()) {
-    case EVR_DA:
-      return "19000101";
-    case EVR_TM:
-      return "000000";
-    case EVR_DT:
-      return "19000101000000";
-    default:
-      return "REMOVED";
+    case EVR_DA: return "19000101";
+    case EVR_TM: return "000000";
+    case EVR_DT: return "19000101000000";
+    default: return "REMOVED";
   }
 }
 
@@ -111,17 +107,10 @@ void setText(DcmItem& item, const DcmTagKey& tag, const std::string& value) {
 void treat(DcmItem& item, DcmElement& element, Case& c, int depth) {
   const DcmTagKey tag(element.getGTag(), element.getETag());
   switch (actionFor(element)) {
-    case Action::Keep:
-      return;
-    case Action::Remove:
-      item.findAndDeleteElement(tag);
-      return;
-    case Action::Empty:
-      Writer::check(item.insertEmptyElement(tag, OFTrue), tag);
-      return;
-    case Action::Dummy:
-      setText(item, tag, dummyFor(element, shownText(item, tag), c));
-      return;
+    case Action::Keep: return;
+    case Action::Remove: item.findAndDeleteElement(tag); return;
+    case Action::Empty: Writer::check(item.insertEmptyElement(tag, OFTrue), tag); return;
+    case Action::Dummy: setText(item, tag, dummyFor(element, shownText(item, tag), c)); return;
     case Action::Uid: {
       const std::string old = text(item, tag);
       std::string all;
@@ -300,10 +289,8 @@ void save(DcmDataset& data, const ByteSource& source, const FileLayout& layout, 
   whole.become();
 }
 
-}  // namespace
-
-DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesystem::path& out, const ProjectKey& key,
-                            const DeidentifyOptions& options, const Progress& progress) {
+/// Throws BadInput where the folders cannot be what they are meant for.
+void checkFolders(const std::filesystem::path& in, const std::filesystem::path& out) {
   // The output must not be read again as input.
   const std::filesystem::path whole = std::filesystem::weakly_canonical(in),
                               target = std::filesystem::weakly_canonical(out);
@@ -312,18 +299,69 @@ DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesyst
   if (!std::filesystem::exists(in)) throw BadInput("there is nothing at the folder to de-identify");
   if (std::filesystem::exists(out) && !std::filesystem::is_empty(out))
     throw BadInput("the output folder is not empty; give a new one, so that nothing old is taken for de-identified");
+}
+
+std::vector<std::filesystem::path> filesIn(const std::filesystem::path& in) {
+  if (std::filesystem::is_regular_file(in)) return {in};
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(in))
+    if (!entry.is_symlink() && entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Throws BadInput, with the reason why a file is left out.
+void checkFile(DcmDataset& data) {
+  if (text(data, DCM_SOPClassUID) == UID_MediaStorageDirectoryStorage || data.tagExists(DCM_DirectoryRecordSequence))
+    throw BadInput("is a directory of files (DICOMDIR), which names the patient");
+  if (text(data, DCM_SOPInstanceUID).empty()) throw BadInput("has no SOP Instance UID");
+  if (const std::string risk = pixelRisk(data); !risk.empty()) throw BadInput(risk);
+}
+
+/// What is done to the files of this patient, and what their series is called afterwards.
+Case caseOf(DcmDataset& data, const ProjectKey& key, const DeidentifyOptions& options,
+            const std::map<std::string, std::string>& descriptions) {
+  const std::string patient =
+      keyedDigest(key, "patient/" + unifiedText(data, DCM_PatientID) + "/" + unifiedText(data, DCM_IssuerOfPatientID) +
+                           (text(data, DCM_PatientID).empty() ? unifiedText(data, DCM_PatientName) : std::string()));
+  Case c{key, options, "G-" + patient.substr(0, 12), 0, {}, 0, false};
+  c.shift_days = -1 - static_cast<int>(std::stoul(patient.substr(12, 6), nullptr, 16) % 3650);
+  const auto words = descriptions.find(text(data, DCM_SeriesInstanceUID));
+  if (words != descriptions.end()) c.description = words->second;
+  if (c.description.empty() && options.cleanDescriptors) c.description = knownWords(text(data, DCM_SeriesDescription));
+  if (c.description.empty() && text(data, DCM_Manufacturer) == "Glisson")
+    c.description = "RESEARCH " + text(data, DCM_Modality);
+  return c;
+}
+
+/// The place of a cleaned file. Throws BadInput where there is one already.
+std::filesystem::path placeOf(DcmDataset& data, const Case& c, const std::filesystem::path& out) {
+  const auto folder = out / c.pseudonym / text(data, DCM_SeriesInstanceUID).substr(5, 16);
+  std::filesystem::create_directories(folder);
+  const auto file = folder / (text(data, DCM_SOPInstanceUID).substr(5, 24) + ".dcm");
+  if (std::filesystem::exists(file)) throw BadInput("has the SOP Instance UID of another file");
+  return file;
+}
+
+void addNotes(std::size_t agesCut, DeidentifyResult& result) {
+  result.notes.push_back("PS3.15 basic profile; free text, names and dates beyond it are removed too");
+  result.notes.push_back("the scanner's maker, model and software versions are kept");
+  if (agesCut > 0)
+    result.notes.push_back("ages of 90 years and more identify: they were written as 090Y, in " +
+                           std::to_string(agesCut) + " files");
+  if (!result.leftOut.empty())
+    result.notes.push_back(std::to_string(result.leftOut.size()) + " files were left out, each with its reason");
+}
+
+}  // namespace
+
+DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesystem::path& out, const ProjectKey& key,
+                            const DeidentifyOptions& options, const Progress& progress) {
+  checkFolders(in, out);
   const ScanResult scanned = scan(in, progress.part(0.0, 0.3));
   std::map<std::string, std::string> descriptions;  // by SeriesInstanceUID
   for (const Series& s : scanned.series) descriptions.try_emplace(seriesInstanceUid(s), describe(s));
-
-  std::vector<std::filesystem::path> files;
-  if (std::filesystem::is_regular_file(in)) {
-    files.push_back(in);
-  } else {
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(in))
-      if (!entry.is_symlink() && entry.is_regular_file()) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
+  const std::vector<std::filesystem::path> files = filesIn(in);
   DeidentifyResult result;
   std::size_t agesCut = 0;
   std::filesystem::create_directories(out);
@@ -334,30 +372,13 @@ DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesyst
       const FileLayout layout = readLayout(source);
       DcmDataset data;
       parseHeader(source, layout, data);
-      if (text(data, DCM_SOPClassUID) == UID_MediaStorageDirectoryStorage ||
-          data.tagExists(DCM_DirectoryRecordSequence))
-        throw BadInput("is a directory of files (DICOMDIR), which names the patient");
-      if (text(data, DCM_SOPInstanceUID).empty()) throw BadInput("has no SOP Instance UID");
-      if (const std::string risk = pixelRisk(data); !risk.empty()) throw BadInput(risk);
-      const std::string patient = keyedDigest(
-          key, "patient/" + unifiedText(data, DCM_PatientID) + "/" + unifiedText(data, DCM_IssuerOfPatientID) +
-                   (text(data, DCM_PatientID).empty() ? unifiedText(data, DCM_PatientName) : std::string()));
-      Case c{key, options, "G-" + patient.substr(0, 12), 0, {}, 0, false};
-      c.shift_days = -1 - static_cast<int>(std::stoul(patient.substr(12, 6), nullptr, 16) % 3650);
+      checkFile(data);
+      Case c = caseOf(data, key, options, descriptions);
       const std::string study = options.cleanDescriptors ? knownWords(text(data, DCM_StudyDescription)) : std::string();
-      const auto words = descriptions.find(text(data, DCM_SeriesInstanceUID));
-      if (words != descriptions.end()) c.description = words->second;
-      if (c.description.empty() && options.cleanDescriptors)
-        c.description = knownWords(text(data, DCM_SeriesDescription));
-      if (c.description.empty() && text(data, DCM_Manufacturer) == "Glisson")
-        c.description = "RESEARCH " + text(data, DCM_Modality);
       clean(data, c, 0);
       declare(data, c);
       if (!study.empty()) setText(data, DCM_StudyDescription, study);
-      const auto folder = out / c.pseudonym / text(data, DCM_SeriesInstanceUID).substr(5, 16);
-      std::filesystem::create_directories(folder);
-      const auto file = folder / (text(data, DCM_SOPInstanceUID).substr(5, 24) + ".dcm");
-      if (std::filesystem::exists(file)) throw BadInput("has the SOP Instance UID of another file");
+      const std::filesystem::path file = placeOf(data, c, out);
       save(data, source, layout, file);
       result.files.push_back(file);
       agesCut += c.agesCut ? 1 : 0;
@@ -365,13 +386,7 @@ DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesyst
       result.leftOut.push_back({files[n], e.what()});
     }
   }
-  result.notes.push_back("PS3.15 basic profile; free text, names and dates beyond it are removed too");
-  result.notes.push_back("the scanner's maker, model and software versions are kept");
-  if (agesCut > 0)
-    result.notes.push_back("ages of 90 years and more identify: they were written as 090Y, in " +
-                           std::to_string(agesCut) + " files");
-  if (!result.leftOut.empty())
-    result.notes.push_back(std::to_string(result.leftOut.size()) + " files were left out, each with its reason");
+  addNotes(agesCut, result);
   progress.report(1.0, "de-identified");
   return result;
 }

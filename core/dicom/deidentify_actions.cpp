@@ -157,8 +157,7 @@ Action actionFor(DcmElement& element) {
     return Action::Remove;  // patient, trial, order, visit, interpretation
   if (isCoded(tag)) return Action::Keep;
   switch (element.ident()) {
-    case EVR_SQ:
-      return Action::Descend;
+    case EVR_SQ: return Action::Descend;
     case EVR_UI:
       return tag == 0x00080016 || tag == 0x00081150 || tag == 0x0008010C || tag == 0x00080117 || tag == 0x0008010D ||
                      tag == 0x00080118
@@ -175,14 +174,12 @@ Action actionFor(DcmElement& element) {
     case EVR_FD:
     case EVR_AT:
     case EVR_xs:
-    case EVR_lt:
-      return Action::Keep;
+    case EVR_lt: return Action::Keep;
     case EVR_OB:
     case EVR_OW:
     case EVR_OF:
     case EVR_OD:
-    case EVR_ox:
-      return group == 0x0028 || group == 0x7FE0 || group == 0x0066 ? Action::Keep : Action::Remove;
+    case EVR_ox: return group == 0x0028 || group == 0x7FE0 || group == 0x0066 ? Action::Keep : Action::Remove;
     default:  // words, names, dates, ages, addresses, unknown bytes
       return Action::Remove;
   }

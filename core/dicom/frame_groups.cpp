@@ -95,9 +95,9 @@ void readGeometry(const FrameView& view, Frame& frame) {
 void addDimensions(DcmItem& data, DcmItem& content, Frame& frame) {
   const DcmTagKey slices[] = {DCM_InStackPositionNumber, DCM_StackID, DCM_ImagePositionPatient,
                               DCM_ImageOrientationPatient};
-  const DcmTagKey times[] = {DCM_NominalCardiacTriggerDelayTime, DCM_TemporalPositionIndex, DCM_TriggerTime,
-                             DCM_NominalPercentageOfCardiacPhase, DCM_FrameReferenceDateTime,
-                             DCM_FrameAcquisitionDateTime};
+  const DcmTagKey times[] = {
+      DCM_NominalCardiacTriggerDelayTime,  DCM_TemporalPositionIndex,  DCM_TriggerTime,
+      DCM_NominalPercentageOfCardiacPhase, DCM_FrameReferenceDateTime, DCM_FrameAcquisitionDateTime};
   std::vector<double> values;
   try {
     values = numbers(content, DCM_DimensionIndexValues);

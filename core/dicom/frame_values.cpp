@@ -174,14 +174,10 @@ bool agree(const MapItem& item, const Rescale& rescale, const std::string& unit)
 int rank(const std::optional<MapQuantity>& quantity) {
   if (!quantity) return 1;
   switch (*quantity) {
-    case MapQuantity::ShearModulus:
-      return 0;
-    case MapQuantity::YoungsModulus:
-      return 2;
-    case MapQuantity::WaveSpeed:
-      return 3;
-    default:
-      return 4;
+    case MapQuantity::ShearModulus: return 0;
+    case MapQuantity::YoungsModulus: return 2;
+    case MapQuantity::WaveSpeed: return 3;
+    default: return 4;
   }
 }
 

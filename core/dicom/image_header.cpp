@@ -23,7 +23,8 @@ std::string noImageReason(const std::string& sopClass, const std::string& modali
   if (sopClass == UID_RTStructureSetStorage || modality == "RTSTRUCT")
     return "is an RT Structure Set: contours, no image";
   if (sopClass == UID_SegmentationStorage || modality == "SEG") return "is a Segmentation: labels, no image series";
-  if (sopClass == UID_MediaStorageDirectoryStorage) return "is a DICOMDIR index and no image; what it lists is read where it is given by itself";
+  if (sopClass == UID_MediaStorageDirectoryStorage)
+    return "is a DICOMDIR index and no image; what it lists is read where it is given by itself";
   if (modality == "SR") return "is a Structured Report: no image";
   if (modality == "PR") return "is a Presentation State: no image";
   if (modality == "KO") return "is a Key Object Selection: no image";
@@ -192,55 +193,79 @@ bool saysBurnedIn(DcmDataset& data, const std::string& sopClass) {
   return said == "YES" || (said != "NO" && sopClass.starts_with(UID_SecondaryCaptureImageStorage));
 }
 
+bool isValidUid(const std::string& uid) {
+  return uid.size() <= 64 && uid.find_first_not_of("0123456789.") == std::string::npos;
+}
+
+/// Throws BadInput where the file holds no image. image: whether it claims to hold one.
+void readKind(DcmDataset& data, ImageHeader& h, bool& image) {
+  h.sopClassUid = shownText(data, DCM_SOPClassUID);
+  if (h.sopClassUid.empty()) h.sopClassUid = h.layout.sopClassUid;
+  h.modality = shownText(data, DCM_Modality);
+  const std::string reason = noImageReason(h.sopClassUid, h.modality);
+  image = reason.empty() && h.layout.pixels.has_value();
+  if (!reason.empty()) throw BadInput(reason);
+  if (!h.layout.pixels) throw BadInput("holds no pixel data");
+}
+
+/// Of series, study, patient and image. Throws BadInput where there is no series.
+void readIdentity(DcmDataset& data, ImageHeader& h) {
+  h.seriesUid = text(data, DCM_SeriesInstanceUID);
+  if (h.seriesUid.empty()) throw BadInput(nameOf(DCM_SeriesInstanceUID) + " is missing or empty");
+  if (!isValidUid(h.seriesUid))
+    throw BadInput(nameOf(DCM_SeriesInstanceUID) + " is no valid UID (digits and dots, at most 64)");
+  const Origin origin = originOf(data);
+  h.studyUid = origin.studyUid;
+  h.studyDate = origin.studyDate;
+  h.patientKey = origin.patientKey;
+  h.frameOfReferenceUid = shownText(data, DCM_FrameOfReferenceUID);
+  h.sopInstanceUid = text(data, DCM_SOPInstanceUID);
+  if (!isValidUid(h.sopInstanceUid)) {
+    h.warnings.push_back(nameOf(DCM_SOPInstanceUID) + " is no valid UID");
+    h.sopInstanceUid.clear();
+  }
+}
+
+void readDescription(DcmDataset& data, const ByteSource& source, ImageHeader& h) {
+  h.description = shownText(data, DCM_SeriesDescription);
+  h.imageType = shownText(data, DCM_ImageType);
+  h.manufacturer = shownText(data, DCM_Manufacturer);
+  h.sequenceName = cleaned(privateText(data, 0x0019, 0x9C, "GEMS_ACQU_01"));
+  if (h.sequenceName.empty()) h.sequenceName = shownText(data, DCM_SequenceName);
+  h.lossy =
+      text(data, DCM_LossyImageCompression) == "01" || isLossy(h.layout.transferSyntax) || hasLossyWavelet(h, source);
+  h.burnedIn = saysBurnedIn(data, h.sopClassUid);
+  h.step = elastographyStep(text(data, DCM_ImageComments));
+  if (h.lossy) h.warnings.push_back("was compressed with loss: its values are not the measured ones");
+}
+
+/// Of series and image; what is no number is told and does without.
+void readNumbers(DcmDataset& data, ImageHeader& h) {
+  try {
+    const double value = number(data, DCM_SeriesNumber).value_or(0.0);
+    if (std::abs(value) < 2e9) h.seriesNumber = static_cast<int>(value);
+    const double instance = number(data, DCM_InstanceNumber).value_or(0.0);
+    if (std::abs(instance) < 2e9) h.instanceNumber = static_cast<int>(instance);
+  } catch (const BadInput&) {
+    h.warnings.push_back(nameOf(DCM_SeriesNumber) + " or " + nameOf(DCM_InstanceNumber) + " is no number");
+  }
+}
+
 ImageHeader parsed(const std::filesystem::path& file, const ByteSource& source, const FileLayout& layout,
                    std::uint64_t fileBytes) {
   ImageHeader h;
   h.file = file;
   h.layout = layout;
   bool image = true;
+  RefusedFile refused;
   try {
     DcmDataset data;
     parseHeader(source, h.layout, data);
     h.warnings = h.layout.warnings;
-    h.sopClassUid = shownText(data, DCM_SOPClassUID);
-    if (h.sopClassUid.empty()) h.sopClassUid = h.layout.sopClassUid;
-    h.modality = shownText(data, DCM_Modality);
-    const std::string reason = noImageReason(h.sopClassUid, h.modality);
-    image = reason.empty() && h.layout.pixels.has_value();
-    if (!reason.empty()) throw BadInput(reason);
-    if (!h.layout.pixels) throw BadInput("holds no pixel data");
-    h.seriesUid = text(data, DCM_SeriesInstanceUID);
-    if (h.seriesUid.empty()) throw BadInput(nameOf(DCM_SeriesInstanceUID) + " is missing or empty");
-    if (h.seriesUid.size() > 64 || h.seriesUid.find_first_not_of("0123456789.") != std::string::npos)
-      throw BadInput(nameOf(DCM_SeriesInstanceUID) + " is no valid UID (digits and dots, at most 64)");
-    const Origin origin = originOf(data);
-    h.studyUid = origin.studyUid;
-    h.studyDate = origin.studyDate;
-    h.patientKey = origin.patientKey;
-    h.frameOfReferenceUid = shownText(data, DCM_FrameOfReferenceUID);
-    h.sopInstanceUid = text(data, DCM_SOPInstanceUID);
-    if (h.sopInstanceUid.size() > 64 || h.sopInstanceUid.find_first_not_of("0123456789.") != std::string::npos) {
-      h.warnings.push_back(nameOf(DCM_SOPInstanceUID) + " is no valid UID");
-      h.sopInstanceUid.clear();
-    }
-    h.description = shownText(data, DCM_SeriesDescription);
-    h.imageType = shownText(data, DCM_ImageType);
-    h.manufacturer = shownText(data, DCM_Manufacturer);
-    h.sequenceName = cleaned(privateText(data, 0x0019, 0x9C, "GEMS_ACQU_01"));
-    if (h.sequenceName.empty()) h.sequenceName = shownText(data, DCM_SequenceName);
-    h.lossy =
-        text(data, DCM_LossyImageCompression) == "01" || isLossy(h.layout.transferSyntax) || hasLossyWavelet(h, source);
-    h.burnedIn = saysBurnedIn(data, h.sopClassUid);
-    h.step = elastographyStep(text(data, DCM_ImageComments));
-    if (h.lossy) h.warnings.push_back("was compressed with loss: its values are not the measured ones");
-    try {
-      const double value = number(data, DCM_SeriesNumber).value_or(0.0);
-      if (std::abs(value) < 2e9) h.seriesNumber = static_cast<int>(value);
-      const double instance = number(data, DCM_InstanceNumber).value_or(0.0);
-      if (std::abs(instance) < 2e9) h.instanceNumber = static_cast<int>(instance);
-    } catch (const BadInput&) {
-      h.warnings.push_back(nameOf(DCM_SeriesNumber) + " or " + nameOf(DCM_InstanceNumber) + " is no number");
-    }
+    readKind(data, h, image);
+    readIdentity(data, h);
+    readDescription(data, source, h);
+    readNumbers(data, h);
     readAcquisition(data, h);
     h.announced = announcedBy(data);
     readPixelDescription(data, h);
@@ -250,16 +275,13 @@ ImageHeader parsed(const std::filesystem::path& file, const ByteSource& source, 
     if (h.imageType.find("MOSAIC") != std::string::npos && frames == 1) expandMosaic(data, h);
     return h;
   } catch (const BadInput& e) {
-    RefusedFile refused;
     refused.reason = e.what();
-    if (image) refused.seriesUid = h.seriesUid;
-    throw refused;
   } catch (const std::bad_alloc&) {
-    RefusedFile refused;
     refused.reason = "asks for more memory than there is";
-    if (image) refused.seriesUid = h.seriesUid;
-    throw refused;
+    refused.outOfMemory = true;
   }
+  if (image) refused.seriesUid = h.seriesUid;
+  throw refused;
 }
 
 }  // namespace

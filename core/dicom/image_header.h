@@ -128,7 +128,8 @@ struct ImageHeader {
 /// Identity of a file that was refused after its series was known: a series with such a file is incomplete.
 struct RefusedFile : std::exception {
   std::string reason;
-  std::string seriesUid;  ///< empty where unknown, or where the file holds no image
+  std::string seriesUid;     ///< empty where unknown, or where the file holds no image
+  bool outOfMemory = false;  ///< there may be more of it another time
   const char* what() const noexcept override { return reason.c_str(); }
 };
 

@@ -24,14 +24,10 @@ std::string spaced(std::string text) {
 
 std::string inWords(MapQuantity quantity) {
   switch (quantity) {
-    case MapQuantity::ShearModulus:
-      return "the shear modulus";
-    case MapQuantity::YoungsModulus:
-      return "Young's modulus";
-    case MapQuantity::WaveSpeed:
-      return "the wave speed";
-    default:
-      return "another quantity";
+    case MapQuantity::ShearModulus: return "the shear modulus";
+    case MapQuantity::YoungsModulus: return "Young's modulus";
+    case MapQuantity::WaveSpeed: return "the wave speed";
+    default: return "another quantity";
   }
 }
 
@@ -40,9 +36,9 @@ std::optional<MapQuantity> quantityInWords(const std::string& description) {
   if (holdsAny(text, {"loss modulus", "storage modulus", "damping", "viscos", "strain", "attenuation"}))
     return MapQuantity::Other;
   // Parts of the complex modulus, and figures about a stiffness instead of the stiffness itself.
-  if (holdsAny(text, {" loss ", "imaginary", " imag ", " real shear", " real part", " compliance", "standard dev", " std ",
-                      " stdev", " sd ", " error", "uncertaint", " variance", "stiffness difference", "stiffness change",
-                      "modulus difference", " residual", "goodness"}))
+  if (holdsAny(text, {" loss ", "imaginary", " imag ", " real shear", " real part", " compliance", "standard dev",
+                      " std ", " stdev", " sd ", " error", "uncertaint", " variance", "stiffness difference",
+                      "stiffness change", "modulus difference", " residual", "goodness"}))
     return MapQuantity::Other;
   if (holdsAny(text, {"young", "elastic modulus", "modulus of elasticity", "e modul", "emodul"}))
     return MapQuantity::YoungsModulus;

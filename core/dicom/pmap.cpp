@@ -37,29 +37,18 @@ void writeScale(Writer& shared, const image::ScalarVolume& v, StiffnessQuantity 
   });
 }
 
-}  // namespace
-
-void writeParametricMap(const std::filesystem::path& file, const image::ScalarVolume& v, StiffnessQuantity quantity,
-                        const Series& source, std::uint64_t seed) {
+void check(const image::ScalarVolume& v, const Series& source) {
   checkReferable(source, "a Parametric Map");
-  const image::Grid& g = source.grid;
-  if (!v.grid.sameGeometry(g)) throw BadArgument("a Parametric Map must lie on the grid of its source series");
+  if (!v.grid.sameGeometry(source.grid))
+    throw BadArgument("a Parametric Map must lie on the grid of its source series");
   if (!std::all_of(v.values.begin(), v.values.end(), [](float x) { return std::isfinite(x); }))
     throw BadInput("a Parametric Map cannot hold values that are not finite; mark missing values with 0");
-  const std::string identity = "pmap/" + source.uid + "/" + std::to_string(seed) + "/" +
-                               (quantity == StiffnessQuantity::Shear ? "mu" : "E") +
-                               sha256(v.values.data(), v.values.size() * sizeof(float));
-  DcmDataset image;
-  readSourceHeader(source, image);
-  DcmFileFormat format;
-  DcmDataset& data = *format.getDataset();
-  writeDerivedHeader(data, image, source,
-                     {UID_ParametricMapStorage, "MR",
-                      quantity == StiffnessQuantity::Shear ? "RESEARCH stiffness map, shear modulus (kPa)"
-                                                           : "RESEARCH stiffness map, Young's modulus (kPa)",
-                      9200 + source.number % 1000, identity});
-  Writer root(data);
-  root.text(DCM_ImageType, "DERIVED\\PRIMARY\\STIFFNESS\\NONE");
+}
+
+constexpr const char* frameType = "DERIVED\\PRIMARY\\STIFFNESS\\NONE";
+
+void writeContent(Writer& root, DcmDataset& data, const image::Grid& g) {
+  root.text(DCM_ImageType, frameType);
   root.text(DCM_ContentLabel, "RESEARCH");
   root.text(DCM_ContentDescription, "Research use only");
   root.text(DCM_ContentCreatorName, "");
@@ -75,35 +64,62 @@ void writeParametricMap(const std::filesystem::path& file, const image::ScalarVo
   root.word(DCM_Columns, g.size.x());
   root.word(DCM_BitsAllocated, 32);
   Writer::check(data.insertEmptyElement(DCM_AcquisitionContextSequence), DCM_AcquisitionContextSequence);
+}
+
+/// What holds for every frame.
+void describeShared(Writer& shared, const image::Grid& grid, const image::ScalarVolume& v, StiffnessQuantity quantity) {
+  writeSharedGeometry(shared, grid);
+  shared.group(DCM_ParametricMapFrameTypeSequence, [](Writer& w) { w.text(DCM_FrameType, frameType); });
+  shared.group(DCM_FrameAnatomySequence, [](Writer& w) {
+    w.text(DCM_FrameLaterality, "U");
+    w.code(DCM_AnatomicRegionSequence, codes::liver);
+  });
+  shared.group(DCM_PixelValueTransformationSequence, [](Writer& w) {
+    w.decimals(DCM_RescaleIntercept, {0.0});
+    w.decimals(DCM_RescaleSlope, {1.0});
+    w.text(DCM_RescaleType, "US");
+  });
+  shared.group(DCM_FrameVOILUTSequence, [](Writer& w) {
+    w.decimals(DCM_WindowCenter, {4.0});
+    w.decimals(DCM_WindowWidth, {8.0});
+  });
+  writeScale(shared, v, quantity);
+}
+
+void describeFrame(Writer& root, const Series& source, int k) {
+  root.group(DCM_PerFrameFunctionalGroupsSequence, [&](Writer& frame) {
+    writeDerivation(frame, source, static_cast<std::size_t>(k), derivedByCalculation, sourceForProcessing);
+    frame.group(DCM_FrameContentSequence,
+                [&](Writer& w) { w.longWords(DCM_DimensionIndexValues, {static_cast<std::uint32_t>(k + 1)}); });
+    writePlanePosition(frame, source.grid, k);
+  });
+}
+
+}  // namespace
+
+void writeParametricMap(const std::filesystem::path& file, const image::ScalarVolume& v, StiffnessQuantity quantity,
+                        const Series& source, std::uint64_t seed) {
+  check(v, source);
+  const bool shear = quantity == StiffnessQuantity::Shear;
+  const std::string identity = "pmap/" + source.uid + "/" + std::to_string(seed) + "/" + (shear ? "mu" : "E") +
+                               sha256(v.values.data(), v.values.size() * sizeof(float));
+  DcmDataset image;
+  readSourceHeader(source, image);
+  DcmFileFormat format;
+  DcmDataset& data = *format.getDataset();
+  writeDerivedHeader(
+      data, image, source,
+      {UID_ParametricMapStorage, "MR",
+       shear ? "RESEARCH stiffness map, shear modulus (kPa)" : "RESEARCH stiffness map, Young's modulus (kPa)",
+       9200 + source.number % 1000, identity});
+  Writer root(data);
+  writeContent(root, data, source.grid);
   referToSeries(data, source);
   writeCodingSchemes(data);
   writeDimensions(root, uidFrom(identity + "/dimensions"), {{DCM_ImagePositionPatient, DCM_PlanePositionSequence}});
-  root.group(DCM_SharedFunctionalGroupsSequence, [&](Writer& shared) {
-    writeSharedGeometry(shared, g);
-    shared.group(DCM_ParametricMapFrameTypeSequence,
-                 [](Writer& w) { w.text(DCM_FrameType, "DERIVED\\PRIMARY\\STIFFNESS\\NONE"); });
-    shared.group(DCM_FrameAnatomySequence, [](Writer& w) {
-      w.text(DCM_FrameLaterality, "U");
-      w.code(DCM_AnatomicRegionSequence, codes::liver);
-    });
-    shared.group(DCM_PixelValueTransformationSequence, [](Writer& w) {
-      w.decimals(DCM_RescaleIntercept, {0.0});
-      w.decimals(DCM_RescaleSlope, {1.0});
-      w.text(DCM_RescaleType, "US");
-    });
-    shared.group(DCM_FrameVOILUTSequence, [](Writer& w) {
-      w.decimals(DCM_WindowCenter, {4.0});
-      w.decimals(DCM_WindowWidth, {8.0});
-    });
-    writeScale(shared, v, quantity);
-  });
-  for (int k = 0; k < g.size.z(); ++k)
-    root.group(DCM_PerFrameFunctionalGroupsSequence, [&](Writer& frame) {
-      writeDerivation(frame, source, static_cast<std::size_t>(k), derivedByCalculation, sourceForProcessing);
-      frame.group(DCM_FrameContentSequence,
-                  [&](Writer& w) { w.longWords(DCM_DimensionIndexValues, {static_cast<std::uint32_t>(k + 1)}); });
-      writePlanePosition(frame, g, k);
-    });
+  root.group(DCM_SharedFunctionalGroupsSequence,
+             [&](Writer& shared) { describeShared(shared, source.grid, v, quantity); });
+  for (int k = 0; k < source.grid.size.z(); ++k) describeFrame(root, source, k);
   Writer::check(
       data.putAndInsertFloat32Array(DCM_FloatPixelData, v.values.data(), static_cast<unsigned long>(v.values.size())),
       DCM_FloatPixelData);

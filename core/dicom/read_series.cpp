@@ -65,8 +65,8 @@ image::ScalarVolume readFiles(const Series& series, const Progress& progress, Re
   if (series.colour) throw BadInput(which + "its pixels are colours, not measured values");
   const std::size_t slices = series.frames.empty() ? series.files.size() : series.frames.size();
   if (series.files.empty() || slices != static_cast<std::size_t>(series.grid.size.z()) ||
-      (!series.frames.empty() && (series.fileOfSlice.empty() ? series.files.size() != 1
-                                                             : series.fileOfSlice.size() != series.frames.size())))
+      (!series.frames.empty() &&
+       (series.fileOfSlice.empty() ? series.files.size() != 1 : series.fileOfSlice.size() != series.frames.size())))
     throw BadInput(which + "its list of files does not match its number of slices");
   series.grid.check();
   image::ScalarVolume volume(series.grid);

@@ -15,7 +15,8 @@ namespace glisson::dicom {
 
 namespace detail {
 struct SegHeader;
-}
+class ReaderChild;
+}  // namespace detail
 
 /// What a reader process may spend on one file. Memory: beyond what the program takes by itself.
 struct ReaderLimits {
@@ -55,15 +56,13 @@ class IsolatedFile {
   void unpack(const EntrySink& sink);
 
  private:
-  class Process;
-  class Pool;
   std::string ask(std::uint32_t request, const std::string& payload, std::uint64_t decodedBytes,
                   std::uint64_t largestAnswer);
   void start();
 
   std::filesystem::path file_;
   std::uint64_t fileBytes_ = 0;
-  std::unique_ptr<Process> process_;
+  std::unique_ptr<detail::ReaderChild> process_;
   bool opened_ = false;
 };
 

@@ -86,21 +86,21 @@ class Service {
 
  private:
   bool answer(Ask ask, const std::string& payload) {
-    std::string reason;
-    std::string seriesUid;
+    RefusedFile refused;
     try {
       return obey(ask, payload);
     } catch (const RefusedFile& e) {
-      reason = e.reason;
-      seriesUid = e.seriesUid;
+      refused = e;
     } catch (const std::bad_alloc&) {
-      reason = "asks for more memory than 256 MiB and three times its size";
+      refused.reason = "asks for more memory than 256 MiB and three times its size";
+      refused.outOfMemory = true;
     } catch (const std::exception& e) {
-      reason = e.what();
+      refused.reason = e.what();
     }
     WireWriter w;
-    w(reason);
-    w(seriesUid);
+    w(refused.reason);
+    w(refused.seriesUid);
+    w(refused.outOfMemory);
     return say(Answer::Refused, w.bytes);
   }
 
@@ -142,17 +142,14 @@ class Service {
         const FileLayout layout = readLayout(*source_);
         return say(Answer::Structures, detail::toMessage(detail::parseStructures(*source_, layout)));
       }
-      case Ask::Segmentation:
-        return segmentation();
+      case Ask::Segmentation: return segmentation();
       case Ask::Directory: {
         WireWriter list;
         list(readDirectory(*source_));
         return say(Answer::List, list.bytes);
       }
-      case Ask::Unpack:
-        return unpack();
-      default:
-        return false;
+      case Ask::Unpack: return unpack();
+      default: return false;
     }
   }
 

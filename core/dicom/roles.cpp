@@ -23,12 +23,9 @@ constexpr const char* byHand = "set by hand";
 /// Of a product, for a reason.
 std::string meaning(const Product& product) {
   switch (product.role) {
-    case SeriesRole::Confidence:
-      return "confidence map";
-    case SeriesRole::Stiffness:
-      return product.masked ? "masked stiffness map" : "stiffness map";
-    default:
-      return "wave images";
+    case SeriesRole::Confidence: return "confidence map";
+    case SeriesRole::Stiffness: return product.masked ? "masked stiffness map" : "stiffness map";
+    default: return "wave images";
   }
 }
 
@@ -187,22 +184,14 @@ void setUnitByWords(Series& s) {
 
 std::string name(SeriesRole role) {
   switch (role) {
-    case SeriesRole::Anatomical:
-      return "anatomical";
-    case SeriesRole::Magnitude:
-      return "magnitude";
-    case SeriesRole::Wave:
-      return "wave";
-    case SeriesRole::Stiffness:
-      return "stiffness";
-    case SeriesRole::Confidence:
-      return "confidence";
-    case SeriesRole::ColourCopy:
-      return "colour-copy";
-    case SeriesRole::Phase:
-      return "phase";
-    case SeriesRole::Other:
-      break;
+    case SeriesRole::Anatomical: return "anatomical";
+    case SeriesRole::Magnitude: return "magnitude";
+    case SeriesRole::Wave: return "wave";
+    case SeriesRole::Stiffness: return "stiffness";
+    case SeriesRole::Confidence: return "confidence";
+    case SeriesRole::ColourCopy: return "colour-copy";
+    case SeriesRole::Phase: return "phase";
+    case SeriesRole::Other: break;
   }
   return "other";
 }

@@ -14,7 +14,7 @@ namespace glisson::dicom {
 struct StructureContour {
   Eigen::Matrix3Xd points_lps_mm;        ///< 3 × n, not repeated at the end
   std::string referencedSopInstanceUid;  ///< empty where absent
-  bool exclusiveOr = false;              ///< CLOSEDPLANAR_XOR: flips what it encloses; else CLOSED_PLANAR, a set of points
+  bool exclusiveOr = false;  ///< CLOSEDPLANAR_XOR: flips what it encloses; else CLOSED_PLANAR, a set of points
 };
 
 struct Structure {

@@ -101,13 +101,8 @@ void checkReferences(const std::set<std::string>& listed, StructureSet& set) {
   if (without < contours) say(without, "name no image");
 }
 
-StructureSet readData(DcmDataset& data) {
-  StructureSet set;
-  if (text(data, DCM_SOPClassUID) != UID_RTStructureSetStorage && text(data, DCM_Modality) != "RTSTRUCT")
-    throw BadInput("is no RT Structure Set (modality '" + shownText(data, DCM_Modality) + "')");
-  set.origin = originOf(data);
-  std::set<std::string> listed;
-  readReferences(data, set, listed);
+/// The list of structures; where each is, by number.
+std::map<int, std::size_t> readList(DcmDataset& data, StructureSet& set) {
   std::map<int, std::size_t> byNumber;
   std::set<std::string> frames;
   forItems(data, DCM_StructureSetROISequence, [&](DcmItem& item) {
@@ -123,42 +118,54 @@ StructureSet readData(DcmDataset& data) {
   });
   if (set.frameOfReferenceUid.empty() && !frames.empty()) set.frameOfReferenceUid = *frames.begin();
   if (frames.size() > 1) set.warnings.push_back("has structures in several frames of reference");
+  return byNumber;
+}
+
+/// The contours of one structure. roi: what it is called in warnings.
+void readContours(DcmItem& item, const std::string& roi, Structure& structure, std::vector<std::string>& warnings) {
+  std::map<std::string, int> otherKinds;
+  int tooShort = 0, moved = 0, index = 0;
+  forItems(item, DCM_ContourSequence, [&](DcmItem& contourItem) {
+    const std::string where = roi + ", contour " + std::to_string(++index);
+    const std::string kind = shownText(contourItem, DCM_ContourGeometricType);
+    if (kind != "CLOSED_PLANAR" && kind != "CLOSEDPLANAR_XOR") {
+      ++otherKinds[kind];
+      return;
+    }
+    StructureContour contour = readContour(contourItem, where, warnings);
+    const std::string offset = shownText(contourItem, DCM_RETIRED_ContourOffsetVector);
+    moved += offset.find_first_of("123456789") != std::string::npos ? 1 : 0;
+    contour.exclusiveOr = kind == "CLOSEDPLANAR_XOR";
+    if (contour.points_lps_mm.cols() < 3)
+      ++tooShort;
+    else
+      structure.contours.push_back(std::move(contour));
+  });
+  for (const auto& [kind, many] : otherKinds)
+    warnings.push_back(roi + ": " + std::to_string(many) + " contour(s) of type '" + kind + "' are left out");
+  if (moved > 0)
+    warnings.push_back(roi + ": " + std::to_string(moved) +
+                       " contour(s) name an offset (ContourOffsetVector), which is not applied: they count where their "
+                       "points are");
+  if (tooShort > 0)
+    warnings.push_back(roi + ": " + std::to_string(tooShort) + " contour(s) of fewer than 3 points are left out");
+}
+
+StructureSet readData(DcmDataset& data) {
+  StructureSet set;
+  if (text(data, DCM_SOPClassUID) != UID_RTStructureSetStorage && text(data, DCM_Modality) != "RTSTRUCT")
+    throw BadInput("is no RT Structure Set (modality '" + shownText(data, DCM_Modality) + "')");
+  set.origin = originOf(data);
+  std::set<std::string> listed;
+  readReferences(data, set, listed);
+  const std::map<int, std::size_t> byNumber = readList(data, set);
   forItems(data, DCM_ROIContourSequence, [&](DcmItem& item) {
     const int reference = roiNumber(item, DCM_ReferencedROINumber);
     const std::string roi = "structure number " + std::to_string(reference);
-    const auto known = byNumber.find(reference);
-    if (known == byNumber.end()) {
+    if (const auto known = byNumber.find(reference); known != byNumber.end())
+      readContours(item, roi, set.structures[known->second], set.warnings);
+    else
       set.warnings.push_back(roi + " has contours but is not listed; it is left out");
-      return;
-    }
-    Structure& structure = set.structures[known->second];
-    std::map<std::string, int> otherKinds;
-    int tooShort = 0, moved = 0;
-    int index = 0;
-    forItems(item, DCM_ContourSequence, [&](DcmItem& contourItem) {
-      const std::string where = roi + ", contour " + std::to_string(++index);
-      const std::string kind = shownText(contourItem, DCM_ContourGeometricType);
-      if (kind != "CLOSED_PLANAR" && kind != "CLOSEDPLANAR_XOR") {
-        ++otherKinds[kind];
-        return;
-      }
-      StructureContour contour = readContour(contourItem, where, set.warnings);
-      const std::string offset = shownText(contourItem, DCM_RETIRED_ContourOffsetVector);
-      moved += offset.find_first_of("123456789") != std::string::npos ? 1 : 0;
-      contour.exclusiveOr = kind == "CLOSEDPLANAR_XOR";
-      if (contour.points_lps_mm.cols() < 3)
-        ++tooShort;
-      else
-        structure.contours.push_back(std::move(contour));
-    });
-    for (const auto& [kind, many] : otherKinds)
-      set.warnings.push_back(roi + ": " + std::to_string(many) + " contour(s) of type '" + kind + "' are left out");
-    if (moved > 0)
-      set.warnings.push_back(roi + ": " + std::to_string(moved) +
-                             " contour(s) name an offset (ContourOffsetVector), which is not applied: they count where "
-                             "their points are");
-    if (tooShort > 0)
-      set.warnings.push_back(roi + ": " + std::to_string(tooShort) + " contour(s) of fewer than 3 points are left out");
   });
   checkReferences(listed, set);
   return set;

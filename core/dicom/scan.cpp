@@ -57,12 +57,9 @@ class FolderWalk {
         if (files.size() >= maxFiles) return skip(entry, "more than 200000 files in one folder; scan a smaller one");
         files.push_back(entry);
         return;
-      case fs::file_type::directory:
-        return folder(entry, depth + 1);
-      case fs::file_type::symlink:
-        return skip(entry, linkReason(entry));
-      default:
-        return skip(entry, "is no regular file (pipe, device or socket)");
+      case fs::file_type::directory: return folder(entry, depth + 1);
+      case fs::file_type::symlink: return skip(entry, linkReason(entry));
+      default: return skip(entry, "is no regular file (pipe, device or socket)");
     }
   }
 

@@ -39,8 +39,8 @@ struct SegmentationSet {
 };
 
 /// Reads BINARY, FRACTIONAL (a fractional voxel is inside from half the maximum on) and LABELMAP segmentations; native,
-/// RLE and deflated frames (16-bit labels: native ones). The grid spans all frames; slices between them that no frame covers are empty.
-/// A plain file is parsed here, all others in a process of their own with limits, as images are.
+/// RLE and deflated frames (16-bit labels: native ones). The grid spans all frames; slices between them that no frame
+/// covers are empty. A plain file is parsed here, all others in a process of their own with limits, as images are.
 /// Throws BadInput: no Segmentation, frames that do not lie on one regular grid, a frame of an unknown segment, a
 /// transfer syntax that is not decoded (named), truncated pixels, more voxels than fit the memory budget.
 SegmentationSet readSegmentation(const std::filesystem::path& file);

@@ -78,8 +78,8 @@ image::Grid latticeOf(const SegHeader& h, std::vector<int>& sliceOfFrame) {
 /// Sets the voxels of a frame that holds one segment, from the voxel first on.
 void addFrame(const SegHeader& h, int number, const std::vector<std::uint8_t>& values, std::size_t first,
               SegmentationSet& set) {
-  const auto segment = std::find_if(set.segments.begin(), set.segments.end(),
-                                    [number](const Segment& s) { return s.number == number; });
+  const auto segment =
+      std::find_if(set.segments.begin(), set.segments.end(), [number](const Segment& s) { return s.number == number; });
   if (segment == set.segments.end())
     throw BadInput("has a frame of segment " + std::to_string(number) + ", which it does not describe");
   std::uint8_t* to = segment->mask.values.data() + first;

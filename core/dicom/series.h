@@ -59,20 +59,20 @@ struct Series {
   std::vector<std::string> sopInstanceUids;  ///< in slice order (one for multi-frame)
   std::vector<int> frames;  ///< of a multi-frame file or mosaic: its frame (from 0) for every slice; else empty
   std::string sopClassUid;
-  image::Grid grid;                    ///< LPS mm, from ImagePositionPatient along the normal
-  std::string studyDate;               ///< as in the file, to compare, never to show
-  bool colour = false;                 ///< samples per pixel > 1 or palette
-  bool lossy = false;                  ///< compressed with loss: values are not the measured ones
-  bool burnedIn = false;               ///< its pixels may hold text about the patient
-  int temporalIndex = -1;              ///< time step, from 0, where volumes of one series follow each other; else -1
-  int encodingDirection = -1;          ///< of motion (raw elastography), from 0; -1 where not known
-  std::optional<double> vibration_Hz;  ///< of a raw elastography acquisition, where the file says so
-  std::optional<std::string> unit;     ///< "Pa", "kPa", ... where the role and the vendor say so
-  std::vector<int> fileOfSlice;  ///< of a multi-frame object cut into several files: which of files; else empty
+  image::Grid grid;                     ///< LPS mm, from ImagePositionPatient along the normal
+  std::string studyDate;                ///< as in the file, to compare, never to show
+  bool colour = false;                  ///< samples per pixel > 1 or palette
+  bool lossy = false;                   ///< compressed with loss: values are not the measured ones
+  bool burnedIn = false;                ///< its pixels may hold text about the patient
+  int temporalIndex = -1;               ///< time step, from 0, where volumes of one series follow each other; else -1
+  int encodingDirection = -1;           ///< of motion (raw elastography), from 0; -1 where not known
+  std::optional<double> vibration_Hz;   ///< of a raw elastography acquisition, where the file says so
+  std::optional<std::string> unit;      ///< "Pa", "kPa", ... where the role and the vendor say so
+  std::vector<int> fileOfSlice;         ///< of a multi-frame object cut into several files: which of files; else empty
   std::vector<double> unevenSlices_mm;  ///< where slices lie unevenly or one is missing (error says so): heights above
                                         ///< the first one along the normal; else empty
-  std::optional<MapQuantity> quantity; ///< where a code of the file says so
-  bool masked = false;                 ///< a stiffness map that is called a masked copy: without what is not trusted
+  std::optional<MapQuantity> quantity;  ///< where a code of the file says so
+  bool masked = false;                  ///< a stiffness map that is called a masked copy: without what is not trusted
   Acquired acquired;
   std::vector<std::string> warnings;  ///< texts, those of diagnostics among them
   Diagnostics diagnostics;
@@ -113,7 +113,8 @@ ReadMap readMap(const Series& series, const Progress& progress = {});
 void tell(Series& series, DiagnosticCode code, std::vector<std::pair<std::string, DiagnosticValue>> arguments = {});
 
 /// The series without its error where that is only that slices lie unevenly or one is missing (unevenSlices_mm): for
-/// statistics, which count each slice by itself. Its grid is then no place but a stack, as far apart as the nearest two.
+/// statistics, which count each slice by itself. Its grid is then no place but a stack, as far apart as the nearest
+/// two.
 Series asStack(const Series& series);
 
 /// The only series with this role, or the best of several by a stated rule. Throws BadInput where there is none, naming

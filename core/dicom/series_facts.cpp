@@ -141,8 +141,8 @@ void takeAcquisition(const std::vector<SliceFacts>& slices, Series& series) {
 
 /// Padding that only some of the slices tell.
 void takePadding(const std::vector<SliceFacts>& slices, Series& series) {
-  const auto with = std::count_if(slices.begin(), slices.end(),
-                                  [](const SliceFacts& s) { return s.header->padding.has_value(); });
+  const auto with =
+      std::count_if(slices.begin(), slices.end(), [](const SliceFacts& s) { return s.header->padding.has_value(); });
   if (with > 0 && static_cast<std::size_t>(with) < slices.size())
     tell(series, DiagnosticCode::PaddingInPart,
          {{"with", static_cast<std::int64_t>(with)}, {"slices", static_cast<std::int64_t>(slices.size())}});

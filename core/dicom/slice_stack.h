@@ -24,7 +24,8 @@ struct SliceStack {
   std::vector<Gap> missing;
 };
 
-/// along_mm: at least two positions, ascending, no two equal. A line is fitted to whole multiples of the usual distance.
+/// along_mm: at least two positions, ascending, no two equal. A line is fitted to whole multiples of the usual
+/// distance.
 SliceStack stackOf(const std::vector<double>& along_mm);
 
 }  // namespace glisson::dicom

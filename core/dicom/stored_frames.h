@@ -36,7 +36,6 @@ class StoredFrames {
 
  private:
   struct Decoder;
-  void checkCodeStreams() const;
   std::vector<std::uint8_t> readNative(int frame) const;
 
   const ImageHeader& header_;

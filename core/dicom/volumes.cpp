@@ -4,41 +4,23 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <sstream>
 #include <tuple>
 
 #include "base/diagnostic.h"
 #include "base/error.h"
 #include "dicom/announced.h"
+#include "dicom/detail/planes.h"
 #include "dicom/series_facts.h"
-#include "dicom/slice_stack.h"
 #include "dicom/stored_frames.h"
 
 namespace glisson::dicom {
 namespace {
 
-/// Two images nearer than this lie at one position.
-constexpr double samePlace_mm = 0.01;
-
-struct Plane {
-  const ImageHeader* header = nullptr;
-  const Frame* frame = nullptr;
-  double along_mm = 0.0;  ///< position · normal
-};
-using Planes = std::vector<Plane>;
-
-std::string nameOf(const Plane& p) {
-  std::string name = "'" + p.header->file.filename().string() + "'";
-  if (p.header->frames.size() > 1) name += " frame " + std::to_string(p.frame->number + 1);
-  return name;
-}
-
-std::string namesOf(const Planes& planes) {
-  std::string names;
-  for (std::size_t n = 0; n < planes.size() && n < 3; ++n) names += (n > 0 ? ", " : "") + nameOf(planes[n]);
-  if (planes.size() > 3) names += " and " + std::to_string(planes.size() - 3) + " more";
-  return names;
-}
+using detail::nameOf;
+using detail::namesOf;
+using detail::Plane;
+using detail::Planes;
+using detail::samePlace_mm;
 
 /// Parts the planes into those that agree with the first and the others; an error names both.
 template <typename Same>
@@ -159,10 +141,10 @@ void split(Part part, std::vector<Part>& out) {
     return;
   }
   static constexpr const char* attributes[] = {
-      "image type",     "complex component", "private image type", "quantity",     "echo number",       "echo time",
-      "inversion time", "diffusion b-value", "temporal position",  "trigger time", "acquisition number",
-      "trigger delay",  "frame acquisition number", "time index",  "dimension index 1", "dimension index 2",
-      "dimension index 3", "dimension index 4",  "dimension index 5"};
+      "image type",         "complex component", "private image type",       "quantity",          "echo number",
+      "echo time",          "inversion time",    "diffusion b-value",        "temporal position", "trigger time",
+      "acquisition number", "trigger delay",     "frame acquisition number", "time index",        "dimension index 1",
+      "dimension index 2",  "dimension index 3", "dimension index 4",        "dimension index 5"};
   for (const char* attribute : attributes) {
     const std::string name = attribute;
     std::map<std::string, Planes, NaturalOrder> byValue;
@@ -194,87 +176,6 @@ void split(Part part, std::vector<Part>& out) {
     return;
   }
   out.push_back(std::move(part));
-}
-
-std::string positionText(double along_mm) {
-  std::ostringstream s;
-  s.precision(6);
-  s << along_mm;
-  return s.str();
-}
-
-/// Sets spacing along the normal, or the error that says why there is none.
-void spaceSlices(const Planes& planes, const Eigen::Vector3d& normal, Series& series) {
-  const Frame& first = *planes.front().frame;
-  if (planes.size() == 1) {
-    const double depth = first.statedSpacing_mm.value_or(first.thickness_mm.value_or(0.0));
-    series.grid.spacing_mm.z() = depth > 0.0 ? depth : first.rowSpacing_mm;
-    series.warnings.push_back(
-        depth > 0.0 ? "has a single slice: statistics are possible, a 3-D model is not"
-                    : "has a single slice and no slice thickness: the pixel spacing stands in for it; statistics are "
-                      "possible, a 3-D model is not");
-    return;
-  }
-  Planes shared;
-  for (std::size_t n = 1; n < planes.size(); ++n)
-    if (planes[n].along_mm - planes[n - 1].along_mm < samePlace_mm) {
-      if (shared.empty()) shared.push_back(planes[n - 1]);
-      shared.push_back(planes[n]);
-    }
-  if (!shared.empty()) {
-    series.error = "several images lie at one position and nothing tells them apart: " + namesOf(shared) +
-                   "; separate them before loading";
-    return;
-  }
-  for (const Plane& p : planes) {
-    const Eigen::Vector3d step = p.frame->position_lps_mm - first.position_lps_mm;
-    const double aside = (step - step.dot(normal) * normal).norm();
-    if (aside > std::max(roundedWithin_mm, 0.002 * std::abs(step.dot(normal)))) {
-      std::ostringstream why;
-      why << "its slices are not stacked along their normal (gantry tilt): " << nameOf(p) << " lies " << aside
-          << " mm to the side of " << nameOf(planes.front()) << "; resample it to a regular grid first";
-      series.error = why.str();
-      return;
-    }
-  }
-  std::vector<double> along_mm;
-  for (const Plane& p : planes) along_mm.push_back(p.along_mm);
-  const SliceStack stack = stackOf(along_mm);
-  const double smallest = stack.smallest_mm;
-  series.grid.spacing_mm.z() = smallest;
-  if (!stack.even || !stack.missing.empty())
-    for (const Plane& p : planes) series.unevenSlices_mm.push_back(p.along_mm - planes.front().along_mm);
-  if (!stack.even) {
-    std::ostringstream why;
-    why << "its slices are unevenly spaced: " << planes[stack.odd].along_mm - planes[stack.odd - 1].along_mm
-        << " mm between " << nameOf(planes[stack.odd - 1]) << " and " << nameOf(planes[stack.odd]) << ", "
-        << stack.step_mm << " mm elsewhere; no averaged spacing is made up";
-    series.warnings.push_back(why.str());
-    series.error = why.str();
-  } else if (!stack.missing.empty()) {
-    std::string places;
-    for (const SliceStack::Gap& gap : stack.missing)
-      places += (places.empty() ? "" : "; ") + positionText(gap.at_mm) + " mm (between " +
-                nameOf(planes[gap.before - 1]) + " and " + nameOf(planes[gap.before]) + ")";
-    series.warnings.push_back("a slice is missing at " + places + " along the normal");
-    series.error = "a slice is missing at " + places + " along the normal; add its file, or load a complete series";
-  } else {
-    series.grid.spacing_mm.z() =
-        (planes.back().along_mm - planes.front().along_mm) / static_cast<double>(planes.size() - 1);
-    if (!stack.exact) {
-      series.grid.spacing_mm.z() = stack.step_mm;
-      series.grid.origin_lps_mm += (stack.first_mm - planes.front().along_mm) * normal;
-      tell(series, DiagnosticCode::PositionsRounded, {{"mm", stack.off_mm}, {"spacing_mm", stack.step_mm}});
-    }
-    if (planes.size() == 2) series.warnings.push_back("has only 2 slices: too few for a 3-D model");
-  }
-  const double taken_mm = series.grid.spacing_mm.z();
-  if (first.statedSpacing_mm && std::abs(*first.statedSpacing_mm - taken_mm) > 0.02 * taken_mm + 0.005) {
-    std::ostringstream why;
-    why << "says that its slices are " << *first.statedSpacing_mm << " mm apart; their positions say " << taken_mm
-        << " mm, which is used";
-    series.warnings.push_back(why.str());
-  }
 }
 
 Series describe(const ImageHeader& h) {
@@ -341,9 +242,10 @@ Series volumeOf(Planes planes, const Eigen::Vector3d& normal) {
     if (const auto why = undecodable(p.header->layout.transferSyntax)) s.error = nameOf(p) + ": " + *why;
   for (const Plane& p : planes)
     if (!p.header->contradicted.empty() && !s.error)
-      s.error = nameOf(p) + " and '" + p.header->contradicted.filename().string() +
-                "' are one image by their SOP instance and position, but hold different pixels; which of the two is meant "
-                "is not known: remove the other one";
+      s.error =
+          nameOf(p) + " and '" + p.header->contradicted.filename().string() +
+          "' are one image by their SOP instance and position, but hold different pixels; which of the two is meant "
+          "is not known: remove the other one";
   if (s.error) return s;
   for (const Plane& p : planes)
     if (planes.front().header->frames.size() > 1 && p.header != planes.front().header &&
@@ -353,7 +255,7 @@ Series volumeOf(Planes planes, const Eigen::Vector3d& normal) {
           "it spreads over several multi-frame files: " + namesOf({planes.front(), p}) + "; load one of them alone";
       return s;
     }
-  spaceSlices(planes, normal, s);
+  detail::spaceSlices(planes, normal, s);
   if (s.error) return s;
   try {
     s.grid.check();

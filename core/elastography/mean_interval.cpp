@@ -42,9 +42,27 @@ struct Pairs {
   double halfSquares = 0.0;  ///< Σ ½ (a − b)²
 };
 
-/// Every shift within reach_mm, one of the two signs. Only its count where differences are not asked for.
+/// Stretches of voxels that count, along x; by slice and row.
+struct Stretch {
+  int first = 0, end = 0;  ///< indices along x
+};
+
+std::vector<std::vector<Stretch>> stretchesOf(const image::Mask& counts) {
+  const Eigen::Vector3i n = counts.grid.size;
+  std::vector<std::vector<Stretch>> rows(static_cast<std::size_t>(n.y()) * static_cast<std::size_t>(n.z()));
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    for (int i = 0; i < n.x(); ++i) {
+      if (counts.values[row * static_cast<std::size_t>(n.x()) + static_cast<std::size_t>(i)] == 0) continue;
+      if (rows[row].empty() || rows[row].back().end < i) rows[row].push_back({i, i});
+      rows[row].back().end = i + 1;
+    }
+  return rows;
+}
+
+/// Every shift within reach_mm, one of the two signs.
 std::vector<Pairs> pairsWithin(const image::ScalarVolume& values, const image::Mask& counts, double reach_mm) {
   const image::Grid& g = values.grid;
+  const std::vector<std::vector<Stretch>> rows = stretchesOf(counts);
   const Eigen::Vector2i reach = (reach_mm / g.spacing_mm.head<2>().array()).floor().cast<int>();
   std::vector<Pairs> out;
   for (int dj = 0; dj <= std::min(reach.y(), g.size.y() - 1); ++dj)
@@ -53,17 +71,20 @@ std::vector<Pairs> pairsWithin(const image::ScalarVolume& values, const image::M
       Pairs p;
       p.distance_mm = std::hypot(di * g.spacing_mm.x(), dj * g.spacing_mm.y());
       if (p.distance_mm > reach_mm) continue;
-      const auto step = static_cast<std::ptrdiff_t>(dj) * g.size.x() + di;
       for (int k = 0; k < g.size.z(); ++k)
-        for (int j = 0; j + dj < g.size.y(); ++j)
-          for (int i = std::max(0, -di); i < std::min(g.size.x(), g.size.x() - di); ++i) {
-            const std::size_t a = g.linear(i, j, k);
-            const auto b = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(a) + step);
-            if (counts.values[a] == 0 || counts.values[b] == 0) continue;
-            const auto difference = static_cast<double>(values.values[a]) - static_cast<double>(values.values[b]);
-            p.n += 1.0;
-            p.halfSquares += 0.5 * difference * difference;
-          }
+        for (int j = 0; j + dj < g.size.y(); ++j) {
+          const std::size_t row =
+              static_cast<std::size_t>(k) * static_cast<std::size_t>(g.size.y()) + static_cast<std::size_t>(j);
+          const float* a = values.values.data() + g.linear(0, j, k);
+          const float* b = values.values.data() + g.linear(0, j + dj, k);
+          for (const Stretch& here : rows[row])
+            for (const Stretch& there : rows[row + static_cast<std::size_t>(dj)])
+              for (int i = std::max(here.first, there.first - di); i < std::min(here.end, there.end - di); ++i) {
+                const auto difference = static_cast<double>(a[i]) - static_cast<double>(b[i + di]);
+                p.n += 1.0;
+                p.halfSquares += 0.5 * difference * difference;
+              }
+        }
       if (p.n > 0.0) out.push_back(p);
     }
   return out;
@@ -113,8 +134,8 @@ MeanInterval::Correlation byCorrelation(const image::ScalarVolume& values, const
   for (const Slice& s : slices) n += s.n;
   const image::Grid& g = values.grid;
   const double pixel_mm = g.spacing_mm.head<2>().maxCoeff();
-  const double radius_mm = std::sqrt(n / static_cast<double>(slices.size()) * g.spacing_mm.head<2>().prod() /
-                                     std::numbers::pi);
+  const double radius_mm =
+      std::sqrt(n / static_cast<double>(slices.size()) * g.spacing_mm.head<2>().prod() / std::numbers::pi);
   const double reach_mm = std::max(0.5 * radius_mm, 3.0 * pixel_mm);
   const std::vector<Pairs> pairs = pairsWithin(values, counts, reach_mm);
   if (n < 2.0 || pairs.empty()) return out;
@@ -155,7 +176,8 @@ MeanInterval meanInterval(const image::ScalarVolume& values_kPa, const image::Ma
   const bool slicesCount = std::isfinite(between) && !(within >= between);
   out.mean.se = slicesCount ? between : within;
   if (!std::isfinite(out.mean.se)) return out;
-  const double freedom = slicesCount ? static_cast<double>(slices.size()) - 1.0 : std::max(1.0, out.correlation.effective - 1.0);
+  const double freedom =
+      slicesCount ? static_cast<double>(slices.size()) - 1.0 : std::max(1.0, out.correlation.effective - 1.0);
   const double half = quantileT(0.975, freedom) * out.mean.se;
   out.mean.low = out.mean.value - half;
   out.mean.high = out.mean.value + half;

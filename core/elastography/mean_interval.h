@@ -7,8 +7,8 @@ namespace glisson::elastography {
 
 /// How well the mean of a map over a region is known, two ways; the larger standard error counts.
 struct MeanInterval {
-  /// Within slices: covariance nugget + sill exp(−(d/ℓ)^p), p 1 or 2, fitted to the variogram of pairs within a slice, and
-  /// summed over all pairs of the region's voxels; slices count as independent.
+  /// Within slices: covariance nugget + sill exp(−(d/ℓ)^p), p 1 or 2, fitted to the variogram of pairs within a slice,
+  /// and summed over all pairs of the region's voxels; slices count as independent.
   struct Correlation {
     double length_mm = 0.0;  ///< ℓ; 0: neighbours are not correlated
     double exponent = 2.0;   ///< p

@@ -92,10 +92,10 @@ std::string onlyFrame(const dicom::StructureSet& set) {
 
 bool organNames(const std::string& name) {
   static const std::set<std::string> plain = {
-      "liver",  "leber",   "foie",    "higado",  "fegato",  "hepar",      "hepatic",  "parenchyma", "whole",  "organ",
-      "roi",    "voi",     "region",  "contour", "outline", "mask",       "segment",  "segmentation", "seg",  "lobe",
-      "left",   "right",   "inner",   "mre",     "mri",     "mr",         "ct",       "elastogram", "auto",   "manual",
-      "draft",  "final",   "reader",  "slice",   "of",      "interest",   "the",      "new",        "copy",   "corrected"};
+      "liver", "leber", "foie",   "higado",  "fegato",  "hepar",    "hepatic", "parenchyma",   "whole", "organ",
+      "roi",   "voi",   "region", "contour", "outline", "mask",     "segment", "segmentation", "seg",   "lobe",
+      "left",  "right", "inner",  "mre",     "mri",     "mr",       "ct",      "elastogram",   "auto",  "manual",
+      "draft", "final", "reader", "slice",   "of",      "interest", "the",     "new",          "copy",  "corrected"};
   std::string word;
   for (const char c : lowerCase(name) + ' ') {
     if (c >= 'a' && c <= 'z') {

@@ -85,13 +85,18 @@ void finish(MappedRoi& result, const image::Grid& mre, double nearest_mm, double
   }
 }
 
+/// Whether slice k of a mask holds a voxel.
+bool holdsVoxels(const image::Mask& mask, int k) {
+  const auto perSlice = static_cast<std::ptrdiff_t>(mask.grid.linear(0, 0, 1));
+  const auto begin = mask.values.begin() + k * perSlice;
+  return std::any_of(begin, begin + perSlice, [](auto v) { return v != 0; });
+}
+
 /// Heights of the slices of a mask that hold voxels, in MRE slices.
 std::vector<double> heights(const image::Mask& mask, const image::Grid& mre) {
   std::vector<double> result;
-  const std::size_t perSlice = mask.grid.linear(0, 0, 1);
   for (int k = 0; k < mask.grid.size.z(); ++k) {
-    const auto begin = mask.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(k) * perSlice);
-    if (std::none_of(begin, begin + static_cast<std::ptrdiff_t>(perSlice), [](auto v) { return v != 0; })) continue;
+    if (!holdsVoxels(mask, k)) continue;
     const Eigen::Vector3d middle(0.5 * (mask.grid.size.x() - 1), 0.5 * (mask.grid.size.y() - 1), k);
     result.push_back(mre.lpsToIndex(mask.grid.indexToLps(middle)).z());
   }
@@ -139,101 +144,121 @@ Distances planeDistances(const std::vector<double>& k, const image::Grid& mre) {
   return d;
 }
 
+/// The polygons that count, seen from the elastogram.
+struct CountedPolygons {
+  std::vector<std::size_t> index;  ///< in the stack
+  std::vector<double> height;      ///< of each, in MRE slices
+  bool parallel = true;            ///< all lie in planes parallel to the elastogram's slices
+};
+
+/// Throws BadInput where no polygon counts.
+CountedPolygons countedPolygons(const roi::ContourStack& contours, const image::Grid& mre) {
+  CountedPolygons counted;
+  for (std::size_t p = 0; p < contours.polygons.size(); ++p) {
+    const roi::Polygon& polygon = contours.polygons[p];
+    if (polygon.state == roi::PolygonState::Draft) continue;
+    counted.index.push_back(p);
+    counted.height.push_back(mre.lpsToIndex(polygon.points_lps_mm.rowwise().mean()).z());
+    counted.parallel = counted.parallel && roi::parallelTo(polygon, mre);
+  }
+  if (counted.index.empty()) throw BadInput("the region of interest has no polygon that counts (drafts do not)");
+  return counted;
+}
+
+roi::ContourStack alone(const roi::Polygon& polygon) {
+  roi::ContourStack one;
+  one.polygons.push_back(polygon);
+  one.polygons.front().exclude = false;
+  return one;
+}
+
+/// Share of the polygons' area that the elastogram holds: without the MRI's slices the region's volume is taken as its
+/// area; several planes on one slice count each.
+double coveredArea(const roi::ContourStack& contours, const CountedPolygons& counted, const image::Grid& mre) {
+  double inside_mm2 = 0.0, all_mm2 = 0.0;
+  for (std::size_t c = 0; c < counted.index.size(); ++c) {
+    const roi::ContourStack polygon = alone(contours.polygons[counted.index[c]]);
+    all_mm2 += roi::area_mm2(polygon);
+    const double k = counted.height[c];
+    if (k < -0.5 - 1e-6 || k > mre.size.z() - 0.5 + 1e-6) continue;
+    const int slice = std::clamp(static_cast<int>(std::ceil(k - 0.5 - 1e-6)), 0, mre.size.z() - 1);
+    image::Mask scratch(mre);
+    roi::fillSlice(scratch, slice, polygon, {0});
+    inside_mm2 += static_cast<double>(image::count(scratch)) * mre.spacing_mm.head<2>().prod();
+  }
+  return all_mm2 > 0.0 ? std::min(1.0, inside_mm2 / all_mm2) : 0.0;
+}
+
+/// Outlines whose image is not known are filled on the elastogram itself.
+void mapDirectly(const roi::ContourStack& contours, const CountedPolygons& counted, MappedRoi& result) {
+  const image::Grid mre = result.mask.grid;
+  result.mask = roi::rasterise(contours, mre);
+  const auto slices = roi::polygonsPerSlice(contours, mre);
+  result.coincidentSlices =
+      static_cast<int>(std::count_if(slices.begin(), slices.end(), [](const auto& s) { return !s.empty(); }));
+  if (const std::size_t missing = roi::emptySlicesBetween(contours, mre).size(); missing > 0)
+    result.diagnostics.add(
+        DiagnosticCode::SlicesWithoutOutline,
+        {{"missing", static_cast<std::int64_t>(missing)},
+         {"slices", static_cast<std::int64_t>(missing) + static_cast<std::int64_t>(result.coincidentSlices)}});
+  result.coverage = coveredArea(contours, counted, mre);
+}
+
+/// Few planes between two elastography slices: no voxel centre lies in an MRI slice that holds the region, though the
+/// planes are within the half slice that counts as the same place.
+void fillFromBetween(const roi::ContourStack& contours, MappedRoi& result) {
+  const auto slices = roi::polygonsPerSlice(contours, result.mask.grid);
+  for (int k = 0; k < result.mask.grid.size.z(); ++k) {
+    const auto& members = slices[static_cast<std::size_t>(k)];
+    roi::fillSlice(result.mask, k, contours, members);
+    result.coincidentSlices += members.empty() ? 0 : 1;
+  }
+}
+
+/// Outlines drawn on the MRI: a slice of the elastogram that coincides with a drawn one takes its outlines, all others
+/// the region's voxels on the MRI.
+void mapFromMri(const roi::ContourStack& contours, const CountedPolygons& counted, const image::Grid& mri,
+                double least_mm, MappedRoi& result) {
+  const image::Grid& mre = result.mask.grid;
+  const image::Mask onMri = roi::rasterise(contours, mri);
+  const auto slices = roi::polygonsPerSlice(contours, mri);
+  result.coverage = coverageOf(onMri, mre);
+  for (int k = 0; k < mre.size.z(); ++k) {
+    double nearest_mm = 1e300;
+    for (const double h : counted.height) nearest_mm = std::min(nearest_mm, std::abs(h - k) * mre.spacing_mm.z());
+    if (!counted.parallel || nearest_mm > coincident_mm) {
+      sampleSlice(onMri, k, result.mask);
+      if (holdsVoxels(result.mask, k)) ++result.sampledSlices;
+    } else {
+      roi::fillSlice(result.mask, k, contours, nearestMembers(slices, counted.index, counted.height, k));
+      ++result.coincidentSlices;
+    }
+  }
+  if (image::count(result.mask) == 0 && counted.parallel && least_mm <= 0.5 * mre.spacing_mm.z() * (1.0 + 1e-6))
+    fillFromBetween(contours, result);
+}
+
 }  // namespace
 
 MappedRoi mapRoi(const roi::ContourStack& contours, const std::optional<image::Grid>& mriGrid,
                  const image::Grid& mreGrid, const std::string& mreFrameOfReferenceUid) {
   mreGrid.check();
+  const CountedPolygons counted = countedPolygons(contours, mreGrid);
+  const Distances distances = planeDistances(counted.height, mreGrid);
   MappedRoi result;
   result.mask = image::Mask(mreGrid);
-  bool parallel = true;
-  std::vector<std::size_t> counted;
-  for (std::size_t p = 0; p < contours.polygons.size(); ++p) {
-    if (contours.polygons[p].state == roi::PolygonState::Draft) continue;
-    counted.push_back(p);
-    parallel = parallel && roi::parallelTo(contours.polygons[p], mreGrid);
-  }
-  if (counted.empty()) throw BadInput("the region of interest has no polygon that counts (drafts do not)");
-
   result.diagnostics = roi::outlineDoubts(contours, mriGrid.value_or(mreGrid), mriGrid.has_value());
-  std::optional<image::Mask> onMri;
-  std::vector<std::vector<std::size_t>> onMriSlices;
-  if (mriGrid) {
-    onMri = roi::rasterise(contours, *mriGrid);
-    onMriSlices = roi::polygonsPerSlice(contours, *mriGrid);
-    result.coverage = coverageOf(*onMri, mreGrid);
-  }
-  std::vector<double> height;  // of every counted polygon
-  for (const std::size_t p : counted)
-    height.push_back(mreGrid.lpsToIndex(contours.polygons[p].points_lps_mm.rowwise().mean()).z());
-  const Distances distances = planeDistances(height, mreGrid);
   result.planeDistance_mm = distances.largest_mm;
-
-  if (!mriGrid) {
-    result.mask = roi::rasterise(contours, mreGrid);
-    const auto slices = roi::polygonsPerSlice(contours, mreGrid);
-    result.coincidentSlices =
-        static_cast<int>(std::count_if(slices.begin(), slices.end(), [](const auto& s) { return !s.empty(); }));
-    if (const std::size_t missing = roi::emptySlicesBetween(contours, mreGrid).size(); missing > 0)
-      result.diagnostics.add(
-          DiagnosticCode::SlicesWithoutOutline,
-          {{"missing", static_cast<std::int64_t>(missing)},
-           {"slices", static_cast<std::int64_t>(missing) + static_cast<std::int64_t>(result.coincidentSlices)}});
-    // Without the MRI's slices the region's volume is taken as its area; several planes on one slice count each.
-    double insideArea_mm2 = 0.0;
-    for (std::size_t c = 0; c < counted.size(); ++c) {
-      const double k = height[c];
-      if (k < -0.5 - 1e-6 || k > mreGrid.size.z() - 0.5 + 1e-6) continue;
-      roi::ContourStack alone;
-      alone.polygons.push_back(contours.polygons[counted[c]]);
-      alone.polygons.front().exclude = false;
-      const int slice = std::clamp(static_cast<int>(std::ceil(k - 0.5 - 1e-6)), 0, mreGrid.size.z() - 1);
-      image::Mask scratch(mreGrid);
-      roi::fillSlice(scratch, slice, alone, {0});
-      insideArea_mm2 += static_cast<double>(image::count(scratch)) * mreGrid.spacing_mm.head<2>().prod();
-    }
-    double area_mm2 = 0.0;
-    for (const std::size_t p : counted) {
-      roi::ContourStack alone;
-      alone.polygons.push_back(contours.polygons[p]);
-      alone.polygons.front().exclude = false;
-      area_mm2 += roi::area_mm2(alone);
-    }
-    result.coverage = area_mm2 > 0.0 ? std::min(1.0, insideArea_mm2 / area_mm2) : 0.0;
-  } else {
-    for (int k = 0; k < mreGrid.size.z(); ++k) {
-      double nearest_mm = 1e300;
-      for (const double h : height) nearest_mm = std::min(nearest_mm, std::abs(h - k) * mreGrid.spacing_mm.z());
-      if (!parallel || nearest_mm > coincident_mm) {
-        sampleSlice(*onMri, k, result.mask);
-        const std::size_t perSlice = mreGrid.linear(0, 0, 1);
-        const auto begin =
-            result.mask.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(k) * perSlice);
-        if (std::any_of(begin, begin + static_cast<std::ptrdiff_t>(perSlice), [](auto v) { return v != 0; }))
-          ++result.sampledSlices;
-        continue;
-      }
-      roi::fillSlice(result.mask, k, contours, nearestMembers(onMriSlices, counted, height, k));
-      ++result.coincidentSlices;
-    }
-    // Few planes between two elastography slices: no voxel centre lies in an MRI slice that holds the region, though
-    // the planes are within the half slice that counts as the same place.
-    if (image::count(result.mask) == 0 && parallel &&
-        distances.least_mm <= 0.5 * mreGrid.spacing_mm.z() * (1.0 + 1e-6)) {
-      const auto slices = roi::polygonsPerSlice(contours, mreGrid);
-      for (int k = 0; k < mreGrid.size.z(); ++k) {
-        const auto& members = slices[static_cast<std::size_t>(k)];
-        roi::fillSlice(result.mask, k, contours, members);
-        result.coincidentSlices += members.empty() ? 0 : 1;
-      }
-    }
-  }
+  if (mriGrid)
+    mapFromMri(contours, counted, *mriGrid, distances.least_mm, result);
+  else
+    mapDirectly(contours, counted, result);
   for (const std::string& text : result.diagnostics.texts(Severity::Warning)) result.warnings.push_back(text);
   if (!contours.frameOfReferenceUid.empty() && !mreFrameOfReferenceUid.empty() &&
       contours.frameOfReferenceUid != mreFrameOfReferenceUid)
     result.warnings.push_back(
         "the region of interest and the elastogram have different frames of reference; confirm that they fit");
-  if (!parallel)
+  if (!counted.parallel)
     result.warnings.push_back("the slices the region was drawn on and the elastography slices are not parallel");
   finish(result, mreGrid, distances.least_mm, mriGrid ? mriGrid->spacing_mm.z() : mreGrid.spacing_mm.z());
   return result;
@@ -252,13 +277,7 @@ MappedRoi mapRoi(const image::Mask& roi, const image::Grid& mreGrid) {
   // Of a mask with thinner slices than the elastogram, only distances beyond the outer slices say something.
   const Distances distances = planeDistances(heights(roi, mreGrid), mreGrid);
   result.planeDistance_mm = distances.largest_mm;
-  const std::size_t perSlice = mreGrid.linear(0, 0, 1);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(mreGrid.size.z()); ++k)
-    for (std::size_t v = k * perSlice; v < (k + 1) * perSlice; ++v)
-      if (result.mask.values[v] != 0) {
-        ++result.sampledSlices;
-        break;
-      }
+  for (int k = 0; k < mreGrid.size.z(); ++k) result.sampledSlices += holdsVoxels(result.mask, k) ? 1 : 0;
   finish(result, mreGrid, distances.least_mm, roi.grid.spacing_mm.z());
   return result;
 }

@@ -26,10 +26,10 @@ struct MappedRoi {
 /// mm and 1 degree) the same polygons are rasterised on the MRE grid; otherwise every MRE voxel asks the MRI voxel that
 /// holds its centre, in the mask rasterised on mriGrid. Without mriGrid, and where by this rule no MRE slice would be
 /// met at all (few planes between two of them), the polygons nearest to an MRE slice are used up to half a slice away,
-/// in their own in-plane position. Warnings: doubtful outlines (roi::outlineDoubts); without mriGrid, elastography slices
-/// between outlined ones that hold no outline; other FrameOfReferenceUID (where both are known);
-/// slices of the region more than half an MRE slice from the nearest MRE slice; less than 90 % of the region inside the
-/// MRE. Throws BadInput where no voxel of the MRE is met, or the polygons cannot be rasterised.
+/// in their own in-plane position. Warnings: doubtful outlines (roi::outlineDoubts); without mriGrid, elastography
+/// slices between outlined ones that hold no outline; other FrameOfReferenceUID (where both are known); slices of the
+/// region more than half an MRE slice from the nearest MRE slice; less than 90 % of the region inside the MRE. Throws
+/// BadInput where no voxel of the MRE is met, or the polygons cannot be rasterised.
 MappedRoi mapRoi(const roi::ContourStack& contours, const std::optional<image::Grid>& mriGrid,
                  const image::Grid& mreGrid, const std::string& mreFrameOfReferenceUid = {});
 

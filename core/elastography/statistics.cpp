@@ -109,6 +109,77 @@ double correlation(const image::Grid& grid, const std::vector<double>& deviation
   return pairs < 8 ? 0.0 : sum / static_cast<double>(pairs) / variance;
 }
 
+double voxelArea_mm2(const image::Grid& grid) {
+  return grid.spacing_mm.x() * grid.spacing_mm.y();
+}
+
+/// The voxels of a region that count.
+struct Counted {
+  std::vector<double> values_kPa;
+  image::Mask mask;
+  std::size_t before = 0;  ///< voxels of the region, counted or not
+};
+
+/// Sorts the region's voxels into those that count and those that do not, and why; gives m its slices.
+Counted countVoxels(const StiffnessMap& map, const image::Mask& region, double confidenceThreshold, Measurement& m) {
+  const image::Grid& grid = map.values_kPa.grid;
+  const std::size_t perSlice = grid.linear(0, 0, 1);
+  Counted counted;
+  counted.mask = image::Mask(grid);
+  std::vector<double> slice;
+  for (int k = 0; k < grid.size.z(); ++k) {
+    slice.clear();
+    std::size_t inSlice = 0;
+    for (std::size_t v = static_cast<std::size_t>(k) * perSlice; v < static_cast<std::size_t>(k + 1) * perSlice; ++v) {
+      if (region.values[v] == 0) continue;
+      ++inSlice;
+      const float value = map.values_kPa.values[v];
+      if (!std::isfinite(value)) {
+        ++m.notFinite;
+      } else if (value <= 0.0F) {
+        ++m.notPositive;
+      } else if (!trusted(map, v, confidenceThreshold)) {
+        ++(map.noConfidence && map.noConfidence->values[v] != 0 ? m.noConfidence : m.lowConfidence);
+      } else {
+        slice.push_back(static_cast<double>(value));
+        counted.mask.values[v] = 1;
+      }
+    }
+    if (inSlice == 0) continue;
+    counted.values_kPa.insert(counted.values_kPa.end(), slice.begin(), slice.end());
+    counted.before += inSlice;
+    m.slices.push_back({k, statisticsOf(slice, voxelArea_mm2(grid))});
+    m.slices.back().statistics.n_before_mask = inSlice;
+  }
+  return counted;
+}
+
+/// The slices' means, each weighted by the area that counts. At least one voxel counts.
+double areaWeightedMean_kPa(const std::vector<SliceStatistics>& slices) {
+  double weighted = 0.0, weights = 0.0;
+  for (const SliceStatistics& s : slices) {
+    if (s.statistics.n == 0) continue;
+    weighted += s.statistics.mean_kPa * s.statistics.area_mm2;
+    weights += s.statistics.area_mm2;
+  }
+  return weighted / weights;
+}
+
+[[noreturn]] void refuseErosion(const MeasureOptions& options, std::size_t drawn) {
+  std::ostringstream why;
+  why << "the inner region of interest is empty: an erosion by " << options.erosion_pixels << " pixels and "
+      << options.erosion_mm << " mm" << (options.exclude != nullptr ? " and what is excluded" : "") << " remove all "
+      << drawn << " voxels; take a smaller erosion";
+  throw BadInput(why.str());
+}
+
+[[noreturn]] void refuseAll(std::size_t before, const Measurement& m) {
+  throw BadInput("no voxel of the region of interest can be used: of " + std::to_string(before) + " voxels " +
+                 std::to_string(m.lowConfidence) + " lie below the confidence, " + std::to_string(m.noConfidence) +
+                 " have no confidence value, " + std::to_string(m.notPositive) + " are not positive, " +
+                 std::to_string(m.notFinite) + " are not finite; check the region, or lower the confidence threshold");
+}
+
 }  // namespace
 
 MeanUncertainty meanUncertainty(const image::ScalarVolume& values_kPa, const image::Mask& counts) {
@@ -184,69 +255,24 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
   const std::size_t drawn = image::count(roi);
   if (drawn == 0) throw BadInput("the region of interest holds no voxel of the stiffness map");
   const image::Mask region = innerRegion(roi, options);
-  image::Mask counts(grid);
 
   Measurement m;
   m.quantity = map.quantity;
   m.poisson = options.poisson;
-  const double voxelArea_mm2 = grid.spacing_mm.x() * grid.spacing_mm.y();
-  const std::size_t perSlice = grid.linear(0, 0, 1);
-  std::vector<double> all, slice;
-  std::size_t before = 0;
-  double weighted = 0.0, weights = 0.0;
-  for (int k = 0; k < grid.size.z(); ++k) {
-    slice.clear();
-    std::size_t inSlice = 0;
-    for (std::size_t v = static_cast<std::size_t>(k) * perSlice; v < static_cast<std::size_t>(k + 1) * perSlice; ++v) {
-      if (region.values[v] == 0) continue;
-      ++inSlice;
-      const float value = map.values_kPa.values[v];
-      if (!std::isfinite(value)) {
-        ++m.notFinite;
-      } else if (value <= 0.0F) {
-        ++m.notPositive;
-      } else if (!trusted(map, v, options.confidenceThreshold)) {
-        ++(map.noConfidence && map.noConfidence->values[v] != 0 ? m.noConfidence : m.lowConfidence);
-      } else {
-        slice.push_back(static_cast<double>(value));
-        counts.values[v] = 1;
-      }
-    }
-    if (inSlice == 0) continue;
-    all.insert(all.end(), slice.begin(), slice.end());
-    before += inSlice;
-    m.slices.push_back({k, statisticsOf(slice, voxelArea_mm2)});
-    m.slices.back().statistics.n_before_mask = inSlice;
-    if (!slice.empty()) {
-      const Statistics& s = m.slices.back().statistics;
-      weighted += s.mean_kPa * s.area_mm2;
-      weights += s.area_mm2;
-    }
-  }
-  if (before == 0) {
-    std::ostringstream why;
-    why << "the inner region of interest is empty: an erosion by " << options.erosion_pixels << " pixels and "
-        << options.erosion_mm << " mm" << (options.exclude != nullptr ? " and what is excluded" : "") << " remove all "
-        << drawn << " voxels; take a smaller erosion";
-    throw BadInput(why.str());
-  }
-  if (all.empty())
-    throw BadInput("no voxel of the region of interest can be used: of " + std::to_string(before) + " voxels " +
-                   std::to_string(m.lowConfidence) + " lie below the confidence, " + std::to_string(m.noConfidence) +
-                   " have no confidence value, " + std::to_string(m.notPositive) + " are not positive, " +
-                   std::to_string(m.notFinite) +
-                   " are not finite; check the region, or lower the confidence threshold");
-  m.pooled = statisticsOf(all, voxelArea_mm2);
-  m.pooled.n_before_mask = before;
-  m.uncertainty = meanUncertainty(map.values_kPa, counts);
-  m.interval = meanInterval(map.values_kPa, counts);
-  m.areaWeightedMean_kPa = weighted / weights;
+  const Counted counted = countVoxels(map, region, options.confidenceThreshold, m);
+  if (counted.before == 0) refuseErosion(options, drawn);
+  if (counted.values_kPa.empty()) refuseAll(counted.before, m);
+  m.pooled = statisticsOf(counted.values_kPa, voxelArea_mm2(grid));
+  m.pooled.n_before_mask = counted.before;
+  m.uncertainty = meanUncertainty(map.values_kPa, counted.mask);
+  m.interval = meanInterval(map.values_kPa, counted.mask);
+  m.areaWeightedMean_kPa = areaWeightedMean_kPa(m.slices);
   const bool shear = map.quantity == StiffnessQuantity::Shear;
   const double mean_kPa = m.pooled.mean_kPa;
   m.shear_mean_kPa = shear ? mean_kPa : toShear(YoungsModulus::fromKPa(mean_kPa), options.poisson).kPa();
   m.youngs_mean_kPa = shear ? toYoungs(ShearModulus::fromKPa(mean_kPa), options.poisson).kPa() : mean_kPa;
   warn(m);
-  tellCeiling(all, m);
+  tellCeiling(counted.values_kPa, m);
   return m;
 }
 

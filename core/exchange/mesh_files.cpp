@@ -47,16 +47,18 @@ class VtkXml {
     matrix("Points", p);
     line("</Points>");
   }
-  /// space: say in the field data, too, that points are LPS, as 3D Slicer does; readers of unstructured grids other than
-  /// VTK's know no texts there.
+  /// space: say in the field data, too, that points are LPS, as 3D Slicer does; readers of unstructured grids other
+  /// than VTK's know no texts there.
   std::string text(bool space) const {
     const std::string type(type_);
-    const std::string fieldData = "<FieldData>\n<Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" "
-                                  "format=\"ascii\">\n76 80 83 0\n</Array>\n</FieldData>\n";  // "LPS" as character codes
+    const std::string fieldData =
+        "<FieldData>\n<Array type=\"String\" Name=\"SPACE\" NumberOfTuples=\"1\" "
+        "format=\"ascii\">\n76 80 83 0\n</Array>\n</FieldData>\n";  // "LPS" as character codes
     return "<?xml version=\"1.0\"?>\n<!-- points in mm, LPS; research use only, not for clinical use -->\n<VTKFile "
            "type=\"" +
-           type + "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<" + type +
-           ">\n" + (space ? fieldData : std::string()) + xml_ + "</" + type + ">\n<AppendedData encoding=\"raw\">\n_" + data_ + "\n</AppendedData>\n</VTKFile>\n";
+           type + "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<" + type + ">\n" +
+           (space ? fieldData : std::string()) + xml_ + "</" + type + ">\n<AppendedData encoding=\"raw\">\n_" + data_ +
+           "\n</AppendedData>\n</VTKFile>\n";
   }
 
  private:

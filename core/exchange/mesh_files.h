@@ -35,9 +35,10 @@ HexMesh deformed(const HexMesh& mesh);
 Eigen::Matrix3Xd displacementsNear(const retraction::Model& model, const retraction::Result& result,
                                    const Eigen::Matrix3Xd& points_lps_mm);
 
-/// Writes a VTK XML file (.vtu, .vtp): points in LPS mm, which surfaces say in field data too (SPACE = LPS, as 3D Slicer
-/// writes it; a body does not, because meshio ends the program that reads texts); numbers appended raw; the same input gives the same bytes. Throws BadArgument where an array has another length,
-/// BadInput where the file cannot be written.
+/// Writes a VTK XML file (.vtu, .vtp): points in LPS mm, which surfaces say in field data too (SPACE = LPS, as 3D
+/// Slicer writes it; a body does not, because meshio ends the program that reads texts); numbers appended raw; the same
+/// input gives the same bytes. Throws BadArgument where an array has another length, BadInput where the file cannot be
+/// written.
 void writeVtu(const std::filesystem::path& file, const HexMesh& mesh);
 void writeVtp(const std::filesystem::path& file, const anatomy::TriangleMesh& mesh,
               const std::vector<NamedArray>& pointArrays);

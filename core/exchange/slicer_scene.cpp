@@ -31,8 +31,7 @@ NodeKind kindOf(SlicerItem::Kind kind) {
     case SlicerItem::Kind::Model:
       return {"Model",        "vtkMRMLModelNode",       "ModelStorage", "vtkMRMLModelStorageNode",
               "ModelDisplay", "vtkMRMLModelDisplayNode"};
-    case SlicerItem::Kind::ClosedCurves:
-      break;
+    case SlicerItem::Kind::ClosedCurves: break;
   }
   return {"MarkupsClosedCurve", "vtkMRMLMarkupsClosedCurveNode", "MarkupsJsonStorage", "vtkMRMLMarkupsJsonStorageNode",
           "MarkupsDisplay",     "vtkMRMLMarkupsDisplayNode"};

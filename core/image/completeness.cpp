@@ -74,7 +74,8 @@ void checkLists(const detail::TextHeader& h, const std::filesystem::path& file, 
       throw BadInput(quoted(file) + " has a damaged MetaImage header: " + name + " is not " + std::to_string(expected) +
                      " numbers");
   };
-  for (const char* name : {"DimSize", "Offset", "Position", "Origin", "CenterOfRotation", "ElementSpacing", "ElementSize"})
+  for (const char* name :
+       {"DimSize", "Offset", "Position", "Origin", "CenterOfRotation", "ElementSpacing", "ElementSize"})
     wrong(name, axes);
   for (const char* name : {"TransformMatrix", "Rotation", "Orientation"}) wrong(name, axes * axes);
 }
@@ -83,17 +84,20 @@ void checkLists(const detail::TextHeader& h, const std::filesystem::path& file, 
 
 void completeMetaImage(const std::filesystem::path& file, Grid& grid, Diagnostics* doubts) {
   const detail::TextHeader h = detail::readMetaHeader(file);
-  static const std::map<std::string, double> units = {{"", 1.0}, {"?", 1.0}, {"mm", 1.0}, {"um", 1e-3}, {"cm", 10.0}, {"m", 1e3}};
+  static const std::map<std::string, double> units = {{"", 1.0},    {"?", 1.0},   {"mm", 1.0},
+                                                      {"um", 1e-3}, {"cm", 10.0}, {"m", 1e3}};
   const auto unit = units.find(lowerCase(h.field("DistanceUnits")));
   if (unit == units.end())
     throw BadInput(quoted(file) + " gives lengths in '" + h.field("DistanceUnits").substr(0, 20) +
                    "', which is no unit of length that is known here; save it in millimetres");
   grid.spacing_mm *= unit->second;
   grid.origin_lps_mm *= unit->second;
-  const auto slope = h.numbers("ElementToIntensityFunctionSlope"), offset = h.numbers("ElementToIntensityFunctionOffset");
+  const auto slope = h.numbers("ElementToIntensityFunctionSlope"),
+             offset = h.numbers("ElementToIntensityFunctionOffset");
   const auto is = [](const auto& n, double plain) { return n && (n->empty() || (n->size() == 1 && (*n)[0] == plain)); };
   if (!is(slope, 1.0) || !is(offset, 0.0))
-    throw BadInput(quoted(file) + " scales its values in its header (ElementToIntensityFunctionSlope or Offset), which is "
+    throw BadInput(quoted(file) +
+                   " scales its values in its header (ElementToIntensityFunctionSlope or Offset), which is "
                    "read by few programs and not here; save it with the values themselves");
   if (doubts == nullptr) return;
   if (!h.fields.contains("ElementSpacing") && !h.fields.contains("ElementSize"))
@@ -154,7 +158,8 @@ void checkMetaImage(const std::filesystem::path& file, Diagnostics* doubts) {
                            ? inflatedSize(in, needed)
                            : bytes - (local ? static_cast<double>(h.bytes) : 0.0);
   if (there < needed) truncated(file, needed, there);
-  if (doubts != nullptr && !h.fields.contains("Offset") && !h.fields.contains("Position") && !h.fields.contains("Origin"))
+  if (doubts != nullptr && !h.fields.contains("Offset") && !h.fields.contains("Position") &&
+      !h.fields.contains("Origin"))
     doubts->add(DiagnosticCode::VolumePlaceUnknown, {{"missing", std::string("Offset")}});
 }
 

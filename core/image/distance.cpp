@@ -36,7 +36,12 @@ class LineTransform {
 
   /// Transforms the n values at first, first + stride, ...
   void run(Field& field, std::size_t first, std::size_t stride) {
-    for (std::size_t i = 0; i < size(); ++i) value_[i] = field.squared_mm2[first + i * stride];
+    double largest = 0.0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      value_[i] = field.squared_mm2[first + i * stride];
+      largest = std::max(largest, value_[i]);
+    }
+    if (largest == 0.0) return;  // nothing is nearer than itself
     int top = -1;
     for (int y = 0; y < n_; ++y) {
       if (value_[static_cast<std::size_t>(y)] == infinity) continue;
@@ -70,12 +75,39 @@ class LineTransform {
     const double d_mm = std::max(0.0, std::abs(x - y) - gap_) * spacing_mm_;
     return d_mm * d_mm + value_[static_cast<std::size_t>(y)];
   }
-  /// Smallest x at which the later source is strictly nearer; n where there is none.
+  /// Smallest x at which the later source is strictly nearer; n where there is none. Bisected between the ends of steps
+  /// that double, from where two parabolas of these sources cross.
   int firstWins(int earlier, int later) const {
+    const auto wins = [&](int x) { return cost(x, later) < cost(x, earlier); };
+    const double apart = later - earlier;
+    const double rise = (value_[static_cast<std::size_t>(later)] - value_[static_cast<std::size_t>(earlier)]) /
+                        (spacing_mm_ * spacing_mm_ * apart);
+    const int guess = static_cast<int>(std::clamp(0.5 * (rise + earlier + later), 0.0, n_ - 1.0));
     int low = 0, high = n_;
+    if (wins(guess)) {
+      high = guess;
+      for (int step = 1; high > 0; step *= 2) {
+        const int x = std::max(0, high - step);
+        if (!wins(x)) {
+          low = x + 1;
+          break;
+        }
+        high = x;
+      }
+    } else {
+      low = guess + 1;
+      for (int step = 1; low < n_; step *= 2) {
+        const int x = std::min(n_ - 1, low + step - 1);
+        if (wins(x)) {
+          high = x;
+          break;
+        }
+        low = x + 1;
+      }
+    }
     while (low < high) {
       const int middle = (low + high) / 2;
-      if (cost(middle, later) < cost(middle, earlier)) {
+      if (wins(middle)) {
         high = middle;
       } else {
         low = middle + 1;

@@ -80,14 +80,10 @@ class QuietStderr {
 ImageIO::Pointer makeIO(Format format) {
   switch (format) {
     case Format::Nifti:
-    case Format::NiftiGz:
-      return itk::NiftiImageIO::New().GetPointer();
-    case Format::Nrrd:
-      return itk::NrrdImageIO::New().GetPointer();
-    case Format::Meta:
-      return itk::MetaImageIO::New().GetPointer();
-    case Format::Unknown:
-      break;
+    case Format::NiftiGz: return itk::NiftiImageIO::New().GetPointer();
+    case Format::Nrrd: return itk::NrrdImageIO::New().GetPointer();
+    case Format::Meta: return itk::MetaImageIO::New().GetPointer();
+    case Format::Unknown: break;
   }
   return nullptr;
 }
@@ -170,30 +166,18 @@ void convertAny(ImageIO::IOComponentEnum type, const std::vector<char>& bytes, s
                 const std::filesystem::path& file, const Rescale& rescale = {}) {
   using Type = ImageIO::IOComponentEnum;
   switch (type) {
-    case Type::UCHAR:
-      return convert<unsigned char>(bytes, values, file, rescale);
-    case Type::CHAR:
-      return convert<signed char>(bytes, values, file, rescale);
-    case Type::USHORT:
-      return convert<unsigned short>(bytes, values, file, rescale);
-    case Type::SHORT:
-      return convert<short>(bytes, values, file, rescale);
-    case Type::UINT:
-      return convert<unsigned int>(bytes, values, file, rescale);
-    case Type::INT:
-      return convert<int>(bytes, values, file, rescale);
-    case Type::ULONG:
-      return convert<unsigned long>(bytes, values, file, rescale);
-    case Type::LONG:
-      return convert<long>(bytes, values, file, rescale);
-    case Type::ULONGLONG:
-      return convert<unsigned long long>(bytes, values, file, rescale);
-    case Type::LONGLONG:
-      return convert<long long>(bytes, values, file, rescale);
-    case Type::FLOAT:
-      return convert<float>(bytes, values, file, rescale);
-    case Type::DOUBLE:
-      return convert<double>(bytes, values, file, rescale);
+    case Type::UCHAR: return convert<unsigned char>(bytes, values, file, rescale);
+    case Type::CHAR: return convert<signed char>(bytes, values, file, rescale);
+    case Type::USHORT: return convert<unsigned short>(bytes, values, file, rescale);
+    case Type::SHORT: return convert<short>(bytes, values, file, rescale);
+    case Type::UINT: return convert<unsigned int>(bytes, values, file, rescale);
+    case Type::INT: return convert<int>(bytes, values, file, rescale);
+    case Type::ULONG: return convert<unsigned long>(bytes, values, file, rescale);
+    case Type::LONG: return convert<long>(bytes, values, file, rescale);
+    case Type::ULONGLONG: return convert<unsigned long long>(bytes, values, file, rescale);
+    case Type::LONGLONG: return convert<long long>(bytes, values, file, rescale);
+    case Type::FLOAT: return convert<float>(bytes, values, file, rescale);
+    case Type::DOUBLE: return convert<double>(bytes, values, file, rescale);
     default:
       throw BadInput(quoted(file) + " holds values of a kind that cannot be read (neither whole numbers nor reals)");
   }

@@ -10,8 +10,8 @@ namespace glisson::image {
 /// Reads a NIfTI (.nii, .nii.gz), NRRD (.nrrd, .nhdr, .seg.nrrd) or MetaImage (.mha, .mhd) volume, values scaled as the
 /// header says, geometry in LPS mm. A 4-D file with one time point is taken as 3-D. The header is checked before
 /// anything is allocated. doubts gets what two programs may read differently: a place in the patient that is not said,
-/// or said twice (NIfTI's qform and sform). Throws BadInput (unknown extension, not readable, no 3-D scalar image, bad geometry,
-/// truncated data).
+/// or said twice (NIfTI's qform and sform). Throws BadInput (unknown extension, not readable, no 3-D scalar image, bad
+/// geometry, truncated data).
 ScalarVolume readVolume(const std::filesystem::path& file, Diagnostics* doubts = nullptr);
 
 /// The same for integer labels; values that are not integers (to 1e-3) are a BadInput.

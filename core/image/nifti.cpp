@@ -196,7 +196,8 @@ Diagnostics doubtsAbout(const Header& h, const Grid& grid) {
                                   corner & 4 ? grid.size.z() - 1 : 0, 1.0);
       apart_mm = std::max(apart_mm, ((s - q) * index).norm() * grid.spacing_mm.x() / s.col(0).norm());
     }
-    const Eigen::Matrix3d axesS = s.leftCols<3>().colwise().normalized(), axesQ = q.leftCols<3>().colwise().normalized();
+    const Eigen::Matrix3d axesS = s.leftCols<3>().colwise().normalized(),
+                          axesQ = q.leftCols<3>().colwise().normalized();
     const bool mirrored = axesS.determinant() * axesQ.determinant() < 0.0;
     if (apart_mm > same_mm || mirrored)
       doubts.add(DiagnosticCode::NiftiFormsDiffer,

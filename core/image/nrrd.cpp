@@ -24,14 +24,46 @@ std::string quoted(const std::filesystem::path& file) {
 }
 
 double bytesOfType(const std::string& name) {
-  static const std::map<std::string, double> sizes = {
-      {"signed char", 1}, {"int8", 1}, {"int8_t", 1}, {"uchar", 1}, {"unsigned char", 1}, {"uint8", 1}, {"uint8_t", 1},
-      {"short", 2}, {"short int", 2}, {"signed short", 2}, {"signed short int", 2}, {"int16", 2}, {"int16_t", 2},
-      {"ushort", 2}, {"unsigned short", 2}, {"unsigned short int", 2}, {"uint16", 2}, {"uint16_t", 2},
-      {"int", 4}, {"signed int", 4}, {"int32", 4}, {"int32_t", 4}, {"uint", 4}, {"unsigned int", 4}, {"uint32", 4},
-      {"uint32_t", 4}, {"longlong", 8}, {"long long", 8}, {"long long int", 8}, {"signed long long", 8},
-      {"signed long long int", 8}, {"int64", 8}, {"int64_t", 8}, {"ulonglong", 8}, {"unsigned long long", 8},
-      {"unsigned long long int", 8}, {"uint64", 8}, {"uint64_t", 8}, {"float", 4}, {"double", 8}};
+  static const std::map<std::string, double> sizes = {{"signed char", 1},
+                                                      {"int8", 1},
+                                                      {"int8_t", 1},
+                                                      {"uchar", 1},
+                                                      {"unsigned char", 1},
+                                                      {"uint8", 1},
+                                                      {"uint8_t", 1},
+                                                      {"short", 2},
+                                                      {"short int", 2},
+                                                      {"signed short", 2},
+                                                      {"signed short int", 2},
+                                                      {"int16", 2},
+                                                      {"int16_t", 2},
+                                                      {"ushort", 2},
+                                                      {"unsigned short", 2},
+                                                      {"unsigned short int", 2},
+                                                      {"uint16", 2},
+                                                      {"uint16_t", 2},
+                                                      {"int", 4},
+                                                      {"signed int", 4},
+                                                      {"int32", 4},
+                                                      {"int32_t", 4},
+                                                      {"uint", 4},
+                                                      {"unsigned int", 4},
+                                                      {"uint32", 4},
+                                                      {"uint32_t", 4},
+                                                      {"longlong", 8},
+                                                      {"long long", 8},
+                                                      {"long long int", 8},
+                                                      {"signed long long", 8},
+                                                      {"signed long long int", 8},
+                                                      {"int64", 8},
+                                                      {"int64_t", 8},
+                                                      {"ulonglong", 8},
+                                                      {"unsigned long long", 8},
+                                                      {"unsigned long long int", 8},
+                                                      {"uint64", 8},
+                                                      {"uint64_t", 8},
+                                                      {"float", 4},
+                                                      {"double", 8}};
   const auto known = sizes.find(name);
   return known == sizes.end() ? 0.0 : known->second;
 }
@@ -57,7 +89,8 @@ std::vector<double> checkedSizes(const TextHeader& h, const std::filesystem::pat
     damaged(file, "its dimension is no whole number from 1 to 16");
   const auto axes = static_cast<std::size_t>((*dimension)[0]);
   const auto sizes = h.numbers("sizes");
-  if (!sizes || sizes->size() != axes) damaged(file, "it gives no size for each of its " + std::to_string(axes) + " axes");
+  if (!sizes || sizes->size() != axes)
+    damaged(file, "it gives no size for each of its " + std::to_string(axes) + " axes");
   for (const double n : *sizes)
     if (n < 1 || n > 2147483647.0 || n != std::floor(n)) damaged(file, "a size is no whole number from 1 on");
   for (const char* perAxis : {"spacings", "thicknesses", "axis mins", "axismins", "axis maxs", "axismaxs", "centers",
@@ -84,18 +117,22 @@ void checkBytes(const TextHeader& h, const std::filesystem::path& file, const st
     if (!n || n->size() > 1) damaged(file, std::string("its '") + skip + "' is no number");
     if (n->empty()) continue;
     const bool fromEnd = std::string(skip) == "byte skip" && (*n)[0] == -1.0;
-    if (!fromEnd && ((*n)[0] < 0 || (*n)[0] > there)) damaged(file, std::string("its '") + skip + "' leads beyond the file");
+    if (!fromEnd && ((*n)[0] < 0 || (*n)[0] > there))
+      damaged(file, std::string("its '") + skip + "' leads beyond the file");
   }
   const std::string encoding = lowerCase(h.field("encoding"));
-  const bool raw = encoding == "raw", text = encoding == "ascii" || encoding == "text" || encoding == "txt" || encoding == "hex";
-  if (!raw && !text && encoding != "gzip" && encoding != "gz") damaged(file, "its encoding is neither raw, gzip nor text");
+  const bool raw = encoding == "raw",
+             text = encoding == "ascii" || encoding == "text" || encoding == "txt" || encoding == "hex";
+  if (!raw && !text && encoding != "gzip" && encoding != "gz")
+    damaged(file, "its encoding is neither raw, gzip nor text");
   // Packed bytes inflate at most a thousandfold; a number written as text takes two characters at least.
-  const double needed = raw ? values * perValue : text ? values * (encoding == "hex" ? 2.0 * perValue : 2.0) - 1.0
-                                                       : values * perValue / maxDeflateRatio - 1024.0;
+  const double needed = raw    ? values * perValue
+                        : text ? values * (encoding == "hex" ? 2.0 * perValue : 2.0) - 1.0
+                               : values * perValue / maxDeflateRatio - 1024.0;
   if (needed > there - begin) {
     std::ostringstream why;
-    why << quoted(file) << " is truncated or damaged: its header announces " << values << " values, but " << there - begin
-        << " bytes of voxels are there; copy it again";
+    why << quoted(file) << " is truncated or damaged: its header announces " << values << " values, but "
+        << there - begin << " bytes of voxels are there; copy it again";
     throw BadInput(why.str());
   }
 }
@@ -107,10 +144,12 @@ void refuseLayers(const TextHeader& h, const std::filesystem::path& file, const 
   std::string names;
   for (int n = 0; h.keys.contains("Segment" + std::to_string(n) + "_ID") && n < 20; ++n) {
     const auto name = h.keys.find("Segment" + std::to_string(n) + "_Name");
-    names += (names.empty() ? "'" : ", '") + (name == h.keys.end() ? std::to_string(n) : name->second.substr(0, 40)) + "'";
+    names +=
+        (names.empty() ? "'" : ", '") + (name == h.keys.end() ? std::to_string(n) : name->second.substr(0, 40)) + "'";
   }
   std::ostringstream why;
-  why << quoted(file) << " is a 3D Slicer segmentation whose segments overlap, in " << sizes.front() << " layers (" << names
+  why << quoted(file) << " is a 3D Slicer segmentation whose segments overlap, in " << sizes.front() << " layers ("
+      << names
       << "): which voxels are the region's is not said by a label. In 3D Slicer, export the one segment as a labelmap "
          "(Segmentations, Export), or save the segmentation as DICOM; then give that file";
   throw BadInput(why.str());
@@ -121,9 +160,9 @@ double millimetresIn(const std::string& quotedUnit) {
   std::string unit = quotedUnit;
   std::erase(unit, '"');
   static const std::map<std::string, double> known = {
-      {"", 1.0},      {"mm", 1.0},        {"millimeter", 1.0},  {"millimeters", 1.0}, {"millimetre", 1.0},
-      {"cm", 10.0},   {"centimeter", 10}, {"centimeters", 10},  {"m", 1000.0},        {"meter", 1000.0},
-      {"meters", 1000.0}, {"um", 1e-3},   {"micron", 1e-3},     {"microns", 1e-3},    {"micrometer", 1e-3},
+      {"", 1.0},           {"mm", 1.0},         {"millimeter", 1.0}, {"millimeters", 1.0}, {"millimetre", 1.0},
+      {"cm", 10.0},        {"centimeter", 10},  {"centimeters", 10}, {"m", 1000.0},        {"meter", 1000.0},
+      {"meters", 1000.0},  {"um", 1e-3},        {"micron", 1e-3},    {"microns", 1e-3},    {"micrometer", 1e-3},
       {"\xC2\xB5m", 1e-3}, {"\xCE\xBCm", 1e-3}, {"???", 1.0}};
   const auto found = known.find(lowerCase(unit));
   return found == known.end() ? 0.0 : found->second;
@@ -139,9 +178,9 @@ TextHeader checkedNrrd(const std::filesystem::path& file) {
   if (h.fields.contains("space") && !h.fields.contains("space directions"))
     throw BadInput(quoted(file) + " names a space ('" + h.field("space").substr(0, 40) +
                    "') but no 'space directions', so how its axes lie in it is not said" +
-                   (h.fields.contains("spacings") ? " (its 'spacings' " + h.field("spacings").substr(0, 60) +
-                                                        " have no direction)"
-                                                  : std::string()) +
+                   (h.fields.contains("spacings")
+                        ? " (its 'spacings' " + h.field("spacings").substr(0, 60) + " have no direction)"
+                        : std::string()) +
                    "; write the directions into its header, or save it again from the program that made it");
   return h;
 }

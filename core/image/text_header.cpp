@@ -116,9 +116,10 @@ std::filesystem::path voxelFile(const std::filesystem::path& header, const std::
   std::error_code failed;
   const std::filesystem::path path = header.parent_path() / plain;
   if (!simple || std::filesystem::symlink_status(path, failed).type() != std::filesystem::file_type::regular)
-    throw BadInput(quoted(header) +
-                   " keeps its voxels in another file; only one file with a plain name, beside the header, is read: save "
-                   "the volume as one file (.nrrd, .mha)");
+    throw BadInput(
+        quoted(header) +
+        " keeps its voxels in another file; only one file with a plain name, beside the header, is read: save "
+        "the volume as one file (.nrrd, .mha)");
   return path;
 }
 

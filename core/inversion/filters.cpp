@@ -11,73 +11,6 @@
 #include "inversion/detail/window.h"
 
 namespace glisson::inversion {
-namespace {
-
-/// Gaussian sums along one axis of a slice; the image is taken as zero beyond its border.
-template <typename T>
-void blur(image::Volume<T>& volume, int axis, const std::vector<double>& half) {
-  const Eigen::Vector3i n = volume.grid.size;
-  const int other = 1 - axis, reach = static_cast<int>(half.size()) - 1;
-  parallelChunks(static_cast<std::size_t>(n.z()), 1, [&](std::size_t begin, std::size_t end) {
-    std::vector<T> line(static_cast<std::size_t>(n[axis]));
-    for (std::size_t k = begin; k < end; ++k)
-      for (int o = 0; o < n[other]; ++o) {
-        Eigen::Vector3i at(0, 0, static_cast<int>(k));
-        at[other] = o;
-        for (int i = 0; i < n[axis]; ++i) {
-          at[axis] = i;
-          line[static_cast<std::size_t>(i)] = volume.at(at);
-        }
-        for (int i = 0; i < n[axis]; ++i) {
-          T sum{};
-          for (int d = std::max(-reach, -i); d <= std::min(reach, n[axis] - 1 - i); ++d)
-            sum +=
-                line[static_cast<std::size_t>(i + d)] * static_cast<float>(half[static_cast<std::size_t>(std::abs(d))]);
-          at[axis] = i;
-          volume.at(at) = sum;
-        }
-      }
-  });
-}
-
-std::vector<double> gaussian(double sigma_pixels) {
-  std::vector<double> half;
-  const int reach = static_cast<int>(std::ceil(3.5 * sigma_pixels));
-  for (int d = 0; d <= reach; ++d) half.push_back(std::exp(-0.5 * d * d / (sigma_pixels * sigma_pixels)));
-  return half;
-}
-
-template <typename T>
-void blurSlices(image::Volume<T>& volume, double sigma_mm) {
-  for (int axis = 0; axis < 2; ++axis) blur(volume, axis, gaussian(sigma_mm / volume.grid.spacing_mm[axis]));
-}
-
-void subtractMean(ComplexVolume& u, const image::Mask& mask, const image::ScalarVolume& weight, double sigma_mm) {
-  ComplexVolume mean = u;
-  for (std::size_t v = 0; v < mask.values.size(); ++v)
-    if (mask.values[v] == 0) mean.values[v] = 0.0F;
-  blurSlices(mean, sigma_mm);
-  for (std::size_t v = 0; v < mask.values.size(); ++v)
-    u.values[v] = mask.values[v] == 0 ? 0.0F : u.values[v] - mean.values[v] / weight.values[v];
-}
-
-}  // namespace
-
-void highPass(Waves& waves, double cutoff_mm, const Progress& progress) {
-  if (!(cutoff_mm > 0.0)) throw BadArgument("the cutoff wavelength of a high-pass filter must be positive");
-  const double sigma_mm = cutoff_mm * std::sqrt(2.0 * std::numbers::ln2) / (2.0 * std::numbers::pi);
-  image::ScalarVolume weight(waves.grid);
-  for (std::size_t v = 0; v < weight.values.size(); ++v) weight.values[v] = waves.mask.values[v] != 0 ? 1.0F : 0.0F;
-  blurSlices(weight, sigma_mm);
-  for (std::size_t d = 0; d < waves.directions.size(); ++d) {
-    progress.report(static_cast<double>(d) / static_cast<double>(waves.directions.size()), "high-pass filter");
-    subtractMean(waves.directions[d].wave, waves.mask, weight, sigma_mm);
-    for (ComplexVolume& n : waves.directions[d].noise) {
-      progress.check();
-      subtractMean(n, waves.mask, weight, sigma_mm);
-    }
-  }
-}
 
 void curl(Waves& waves, double radius_mm, int dimensions, const Progress& progress) {
   if (waves.directions.size() != 3)
@@ -106,7 +39,7 @@ void curl(Waves& waves, double radius_mm, int dimensions, const Progress& progre
     for (std::size_t d = 0; d < 3; ++d)
       u[d] = field == 0 ? &waves.directions[d].wave : &waves.directions[d].noise[field - 1];
     std::vector<ComplexVolume> out(components, ComplexVolume(waves.grid));
-    window.forEach(inner, progress, [&](std::size_t v) {
+    detail::forEachVoxel(inner, progress, [&](std::size_t v) {
       Eigen::Matrix3cd gradient = Eigen::Matrix3cd::Zero();  // row: direction, column: derivative
       for (std::size_t d = 0; d < 3; ++d)
         for (std::size_t t = 0; t < window.size(); ++t)

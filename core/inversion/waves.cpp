@@ -228,7 +228,8 @@ Waves firstHarmonic(const std::vector<PhaseOffsets>& directions, const WaveOptio
     if (!clipped.values.empty()) {
       const std::size_t before = image::count(waves.mask);
       detail::fitUnclipped(directions[d], clipped, out, waves.mask);
-      waves.warnings.push_back("direction " + std::to_string(d + 1) + ": phases were cut off at the ends of the scale; " +
+      waves.warnings.push_back("direction " + std::to_string(d + 1) +
+                               ": phases were cut off at the ends of the scale; " +
                                std::to_string(before - image::count(waves.mask)) +
                                " voxels with fewer than four whole offsets were left out");
       if (image::count(waves.mask) == 0) throw BadInput("phases are cut off at the ends of the scale everywhere");

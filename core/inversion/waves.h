@@ -65,9 +65,9 @@ struct Waves {
 
 /// Steps δ_t = φ_{t+1} − φ_t remove any phase that does not move. With φ_t = φ_0 + Re(U e^{2πit/N}) harmonic m of the
 /// steps is (e^{2πim/N} − 1) times that of φ, so U = (2/N) Σ δ_t e^{−2πit/N} / (e^{2πi/N} − 1).
-/// Without a mask a voxel has signal where steps agree within 3 × 3 pixels as they do below a phase noise of 0.6 rad, the
-/// mean over all steps and directions; wrapped steps agree as well as others. Throws BadInput: fewer than three offsets, other numbers or grids, values that
-/// are not finite, or an empty mask.
+/// Without a mask a voxel has signal where steps agree within 3 × 3 pixels as they do below a phase noise of 0.6 rad,
+/// the mean over all steps and directions; wrapped steps agree as well as others. Throws BadInput: fewer than three
+/// offsets, other numbers or grids, values that are not finite, or an empty mask.
 Waves firstHarmonic(const std::vector<PhaseOffsets>& directions, const WaveOptions& options = {},
                     const Progress& progress = {});
 

@@ -1,7 +1,6 @@
 #include "live/server.h"
 
 #include <arpa/inet.h>
-#include <igtlMessageHeader.h>
 #include <igtlPointMessage.h>
 #include <igtlServerSocket.h>
 #include <igtlStringMessage.h>
@@ -13,22 +12,19 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <cstdio>
-#include <mutex>
-#include <optional>
 #include <thread>
-#include <utility>
 
 #include "base/error.h"
+#include "live/detail/tool_poses.h"
 
 namespace glisson::live {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-constexpr double furthestPose_mm = 100.0;
-constexpr int largestBody = 1 << 20;
+using detail::Clock;
+using detail::Poses;
+using detail::turned;
 
 double ms(Clock::duration d) {
   return std::chrono::duration<double, std::milli>(d).count();
@@ -64,112 +60,6 @@ class Server : public igtl::ServerSocket {
  protected:
   Server() = default;
 };
-
-/// Whether a TRANSFORM's body is as long as its version asks for: 48 bytes; from version 2 on behind a header of its own
-/// that says how long it and the metadata are.
-bool soundTransform(int version, const unsigned char* body, int size) {
-  constexpr int matrix = 48, extended = 12;
-  if (version == 1) return size == matrix;
-  if (size < extended + matrix) return false;
-  const auto number = [body](int at, int bytes) {
-    std::int64_t n = 0;
-    for (int b = 0; b < bytes; ++b) n = 256 * n + body[at + b];
-    return n;
-  };
-  return number(0, 2) == extended && number(2, 2) + number(4, 4) + extended + matrix == size;
-}
-
-/// The last pose that came in, handed from the receiving thread to the sending one.
-class Poses {
- public:
-  struct Pose {
-    Eigen::Vector3d at_mm;
-    Clock::time_point received;
-  };
-  void put(const Eigen::Vector3d& at_mm) {
-    const std::lock_guard lock(mutex_);
-    pose_ = Pose{at_mm, Clock::now()};
-    ++count_;
-    changed_.notify_one();
-  }
-  void close() {
-    const std::lock_guard lock(mutex_);
-    closed_ = true;
-    changed_.notify_one();
-  }
-  /// Waits until a pose comes, the client is gone, or the time is up.
-  std::optional<Pose> takeUntil(Clock::time_point time) {
-    std::unique_lock lock(mutex_);
-    changed_.wait_until(lock, time, [&] { return pose_ || closed_; });
-    return std::exchange(pose_, std::nullopt);
-  }
-  bool closed() {
-    const std::lock_guard lock(mutex_);
-    return closed_;
-  }
-  long count() {
-    const std::lock_guard lock(mutex_);
-    return count_;
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::optional<Pose> pose_;
-  bool closed_ = false;
-  long count_ = 0;
-};
-
-/// Between LPS and the messages' coordinates; its own inverse.
-Eigen::Vector3d turned(const Eigen::Vector3d& p, bool ras) {
-  return ras ? Eigen::Vector3d(-p.x(), -p.y(), p.z()) : p;
-}
-
-/// Reads all of it, however it arrives. False where the client is gone or `stop` is set.
-bool readAll(igtl::Socket& socket, void* to, int bytes, const std::atomic<bool>& stop) {
-  for (int done = 0; done < bytes && !stop;) {
-    const int n = socket.Receive(static_cast<char*>(to) + done, bytes - done, 0);
-    if (n == 0) return false;
-    if (n > 0) done += n;
-  }
-  return !stop;
-}
-
-void receive(igtl::Socket& socket, const Eigen::Vector3d& rest_mm, bool ras, Poses& poses,
-             const std::atomic<bool>& stop) {
-  socket.SetReceiveTimeout(100);
-  while (!stop) {
-    igtl::MessageHeader::Pointer header = igtl::MessageHeader::New();
-    header->InitPack();
-    if (!readAll(socket, header->GetPackPointer(), header->GetPackSize(), stop)) break;
-    // The first two bytes are the version of the header, most significant first, until it is unpacked.
-    const auto* raw = static_cast<const unsigned char*>(header->GetPackPointer());
-    const int version = 256 * raw[0] + raw[1];
-    header->Unpack();
-    // A client that does not speak the protocol, or lies about a size, is let go.
-    const int size = header->GetBodySizeToRead();
-    if (version < 1 || version > 3 || size < 0 || size > largestBody) break;
-    const bool pose =
-        std::string(header->GetDeviceType()) == "TRANSFORM" && std::string(header->GetDeviceName()) == "Retractor";
-    if (!pose) {
-      std::vector<char> skipped(static_cast<std::size_t>(size));
-      if (size > 0 && !readAll(socket, skipped.data(), size, stop)) break;
-      continue;
-    }
-    igtl::TransformMessage::Pointer message = igtl::TransformMessage::New();
-    message->SetMessageHeader(header);
-    message->AllocatePack();
-    if (static_cast<int>(message->GetPackBodySize()) != size) break;
-    if (!readAll(socket, message->GetPackBodyPointer(), size, stop)) break;
-    if (!soundTransform(version, static_cast<const unsigned char*>(message->GetPackBodyPointer()), size)) break;
-    if (!(message->Unpack(1) & igtl::MessageHeader::UNPACK_BODY)) continue;  // the checksum is wrong
-    igtl::Matrix4x4 matrix;
-    message->GetMatrix(matrix);
-    const Eigen::Vector3d at_mm = turned(Eigen::Vector3f(matrix[0][3], matrix[1][3], matrix[2][3]).cast<double>(), ras);
-    if (at_mm.allFinite() && (at_mm - rest_mm).norm() <= furthestPose_mm) poses.put(at_mm);
-  }
-  poses.close();
-}
 
 bool send(igtl::Socket& socket, igtl::MessageBase& message, const char* name, igtl::TimeStamp::Pointer& time) {
   message.SetDeviceName(name);
@@ -276,80 +166,121 @@ class Session {
   Eigen::Matrix3Xd u_mm_, atlas_u_mm_;
 };
 
-}  // namespace
+/// What was measured while clients were served, summed up.
+struct Served {
+  ServerStatistics s;
+  double connected_ms = 0.0, latency_ms = 0.0;
+  long answered = 0;
 
-ServerStatistics serve(const retraction::LiveLivers& livers, const std::vector<Eigen::Vector3d>& landmarks_mm,
-                       const ServerOptions& options,
-                       const std::function<void(int)>& listening, const Progress& progress) {
+  void noteAnswer(double waited_ms) {
+    latency_ms += waited_ms;
+    s.latency_max_ms = std::max(s.latency_max_ms, waited_ms);
+    ++answered;
+  }
+  ServerStatistics means() const {
+    ServerStatistics m = s;
+    if (connected_ms > 0.0) m.rate_hz = 1e3 * static_cast<double>(m.frames) / connected_ms;
+    if (m.frames > 0) m.evaluate_us /= static_cast<double>(m.frames);
+    if (answered > 0) m.latency_ms = latency_ms / static_cast<double>(answered);
+    return m;
+  }
+};
+
+/// A thread that takes a client's poses; ends with this object, and with it the connection.
+class Connection {
+ public:
+  Connection(igtl::Socket& client, const Eigen::Vector3d& rest_mm, bool ras, Served& served)
+      : client_(client),
+        served_(served),
+        receiver_([this, &client, rest_mm, ras] { detail::receive(client, rest_mm, ras, poses, stop_); }) {}
+  ~Connection() {
+    stop_ = true;
+    receiver_.join();
+    client_.CloseSocket();
+    served_.s.poses += poses.count();
+    served_.connected_ms += ms(Clock::now() - start_);
+  }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  Poses poses;
+
+ private:
+  igtl::Socket& client_;
+  Served& served_;
+  std::atomic<bool> stop_ = false;
+  Clock::time_point start_ = Clock::now();
+  std::thread receiver_;
+};
+
+void check(const retraction::LiveLivers& livers, const std::vector<Eigen::Vector3d>& landmarks_mm,
+           const ServerOptions& options) {
   if (landmarks_mm.size() != static_cast<std::size_t>(livers.mre->points()) ||
       (livers.atlas && livers.atlas->points() != livers.mre->points()))
     throw BadArgument("serve: the models do not watch the landmarks that were given");
   if (!(options.rate_hz > 0.0 && options.rate_hz <= 1000.0))
     throw BadInput("the rate must be above 0 and at most 1000 Hz");
+}
+
+Server::Pointer opened(const ServerOptions& options) {
   const Server::Pointer server = Server::New();
   if (!server->open(options.bind, options.port))
     throw BadInput("port " + std::to_string(options.port) + " of " + options.bind +
                    " cannot be opened; is another program using it (--port), or is it no address of this computer "
                    "(--bind)?");
-  ServerStatistics s;
-  double connected_ms = 0.0, latency_ms = 0.0;
-  long answered = 0;
+  return server;
+}
+
+bool finished(const ServerOptions& options, const ServerStatistics& s) {
+  return options.frames > 0 && s.frames >= options.frames;
+}
+
+/// One client until it leaves, or the frames are sent. Throws Cancelled.
+void serveClient(igtl::Socket& client, const retraction::LiveLivers& livers,
+                 const std::vector<Eigen::Vector3d>& landmarks_mm, const ServerOptions& options, Served& served,
+                 const Progress& progress) {
+  client.SetSendTimeout(2000);
   const auto tick = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / options.rate_hz));
+  Connection connection(client, livers.mre->toolPoint_mm(), options.ras, served);
+  Session session(livers, landmarks_mm, options);
+  auto next = Clock::now();
+  while (!finished(options, served.s) && !connection.poses.closed()) {
+    progress.check();
+    const auto pose = connection.poses.takeUntil(next);
+    if (pose) session.moveTo(pose->at_mm);
+    session.follow(served.s);
+    if (!session.sendFrame(client)) break;
+    ++served.s.frames;
+    if (pose) served.noteAnswer(ms(Clock::now() - pose->received));
+    next = std::max(next + tick, Clock::now());
+  }
+}
+
+}  // namespace
+
+ServerStatistics serve(const retraction::LiveLivers& livers, const std::vector<Eigen::Vector3d>& landmarks_mm,
+                       const ServerOptions& options, const std::function<void(int)>& listening,
+                       const Progress& progress) {
+  check(livers, landmarks_mm, options);
+  const Server::Pointer server = opened(options);
   // The first client meets the livers as the scene's own hoist leaves them.
   constexpr int most = 400;
   retraction::followScene(livers, most, progress);
   if (listening) listening(server->GetServerPort());
-  const auto finished = [&] { return options.frames > 0 && s.frames >= options.frames; };
+  Served served;
   try {
-    while (!finished()) {
+    while (!finished(options, served.s)) {
       progress.check();
       igtl::Socket::Pointer client = server->WaitForConnection(100).GetPointer();
       if (client.IsNull()) continue;
       progress.report(0.0, "a client is connected");
-      client->SetSendTimeout(2000);
-      Poses poses;
-      std::atomic<bool> stop = false;
-      std::thread receiver([&] { receive(*client, livers.mre->toolPoint_mm(), options.ras, poses, stop); });
-      Session session(livers, landmarks_mm, options);
-      const auto start = Clock::now();
-      auto next = start;
-      const auto leave = [&] {
-        stop = true;
-        receiver.join();
-        client->CloseSocket();
-        s.poses += poses.count();
-        connected_ms += ms(Clock::now() - start);
-      };
-      try {
-        while (!finished() && !poses.closed()) {
-          progress.check();
-          const auto pose = poses.takeUntil(next);
-          if (pose) session.moveTo(pose->at_mm);
-          session.follow(s);
-          if (!session.sendFrame(*client)) break;
-          ++s.frames;
-          if (pose) {
-            const double waited = ms(Clock::now() - pose->received);
-            latency_ms += waited;
-            s.latency_max_ms = std::max(s.latency_max_ms, waited);
-            ++answered;
-          }
-          next = std::max(next + tick, Clock::now());
-        }
-      } catch (...) {
-        leave();
-        throw;
-      }
-      leave();
+      serveClient(*client, livers, landmarks_mm, options, served, progress);
     }
   } catch (const Cancelled&) {
     // The usual end: what was measured until then is told.
   }
   server->CloseSocket();
-  if (connected_ms > 0.0) s.rate_hz = 1e3 * static_cast<double>(s.frames) / connected_ms;
-  if (s.frames > 0) s.evaluate_us /= static_cast<double>(s.frames);
-  if (answered > 0) s.latency_ms = latency_ms / static_cast<double>(answered);
-  return s;
+  return served.means();
 }
 
 ServerStatistics rehearse(const retraction::LiveLivers& livers, long frames, const Progress& progress) {

@@ -17,19 +17,16 @@ void checkOptions(const DynamicOptions& o) {
   if (!(o.rayleighAlpha_1_s >= 0.0)) refuse("Rayleigh alpha must be 0 or more", o.rayleighAlpha_1_s);
   if (!(o.rayleighBeta_s >= 0.0)) refuse("Rayleigh beta must be 0 or more", o.rayleighBeta_s);
   if (!(o.ramp_s >= 0.0)) refuse("the ramp must be 0 or more seconds", o.ramp_s);
-  if (!(o.spectralRadius >= 0.0 && o.spectralRadius <= 1.0)) refuse("the spectral radius must be 0 to 1", o.spectralRadius);
+  if (!(o.spectralRadius >= 0.0 && o.spectralRadius <= 1.0))
+    refuse("the spectral radius must be 0 to 1", o.spectralRadius);
 }
 
 int severity(SolveStatus status) {
   switch (status) {
-    case SolveStatus::Converged:
-      return 0;
-    case SolveStatus::StoppedAtLimit:
-      return 1;
-    case SolveStatus::Indefinite:
-      return 2;
-    case SolveStatus::NotFinite:
-      break;
+    case SolveStatus::Converged: return 0;
+    case SolveStatus::StoppedAtLimit: return 1;
+    case SolveStatus::Indefinite: return 2;
+    case SolveStatus::NotFinite: break;
   }
   return 3;
 }
@@ -62,12 +59,9 @@ NodalField nodal(const Eigen::VectorXd& x) {
 
 const char* nameOf(TimeScheme scheme) {
   switch (scheme) {
-    case TimeScheme::Newmark:
-      return "newmark";
-    case TimeScheme::GeneralisedAlpha:
-      return "generalised-alpha";
-    case TimeScheme::ImplicitEuler:
-      break;
+    case TimeScheme::Newmark: return "newmark";
+    case TimeScheme::GeneralisedAlpha: return "generalised-alpha";
+    case TimeScheme::ImplicitEuler: break;
   }
   return "implicit-euler";
 }

@@ -64,9 +64,10 @@ class MatrixSystem : public DynamicSystem {
 
 /// The full voxel FEM, vectors are nodal fields column by column (3 × node + axis), 0 at fixed degrees of freedom.
 /// SolverOptions::kind: Cg with its preconditioner, Multigrid (of the step's own matrix) and Cg in it, Factorised up to
-/// StaticSolver::factorisedLimit, all from the last solution; Auto factorises small bodies, else takes block-Jacobi CG
-/// where the step is short enough for the mass to rule, Multigrid where it is not, and says why. Forces at fixed
-/// degrees of freedom are left out. Its free modes are the six rigid motions where the body has no support at all.
+/// StaticSolver::factorisedLimit, all from the best combination of the last solutions; Auto factorises small bodies,
+/// else takes block-Jacobi CG where the step is short enough for the mass to rule, Multigrid where it is not, and says
+/// why. Forces at fixed degrees of freedom are left out. Its free modes are the six rigid motions where nothing holds
+/// it.
 class VoxelSystem : public DynamicSystem {
  public:
   explicit VoxelSystem(std::shared_ptr<const VoxelOperator> voxels, const SolverOptions& options = {});
@@ -101,7 +102,7 @@ struct DynamicState {
 struct DynamicOptions {
   TimeScheme scheme = TimeScheme::ImplicitEuler;
   double spectralRadius = 0.8;  ///< generalised alpha: what a step leaves of the fastest motions, 0 to 1
-  double h_s = 1e-3;  ///< time step at most; timeSteps has the length taken
+  double h_s = 1e-3;            ///< time step at most; timeSteps has the length taken
   double end_s = 2.0;
   double rayleighAlpha_1_s = 0.0;  ///< C = α M + β K
   double rayleighBeta_s = 0.0;
@@ -138,7 +139,7 @@ struct Trajectory {
 };
 
 /// Implicit Euler [baraff1998large] with the complete right-hand side, C = αM + βK:
-///   (M + hC + h²K) Δv = h (f − K q − C v − h K v),  v += Δv,  q += h v;
+///   (M + hC + h²K) v₊ = M v + h (f − K q),  q₊ = q + h v₊ (that is, M Δv = h (f − K q₊ − C v₊));
 /// kinetic + elastic energy + load potential never grows under a constant load.
 /// Newmark and generalised alpha: M a + C v + K q = f with a at t₊ − α_m h, the rest at t₊ − α_f h (t₊ the end of the
 /// step; both 0 by Newmark), v₊ = v + h((1−γ) a + γ a₊), q₊ = q + h v + h²((½−β) a + β a₊), γ = ½ − α_m + α_f,
@@ -146,8 +147,8 @@ struct Trajectory {
 /// Free modes R of the system are split off, as K R = 0 lets them be: v = R s + v_e, s by the same scheme without K,
 /// and the rest v_e, q_e is kept M-orthogonal to R. So linear and angular momentum (of the reference shape) are kept to
 /// rounding whatever the solver's tolerance, and elastic forces do not lose digits to the distance travelled.
-/// Throws BadInput for h_s ≤ 0, end_s < 0, negative damping, a spectral radius beyond 0 to 1, more than 1e9 steps; a step
-/// that does not converge is told in worst, and one with values that are not finite ends the run there.
+/// Throws BadInput for h_s ≤ 0, end_s < 0, negative damping, a spectral radius beyond 0 to 1, more than 1e9 steps; a
+/// step that does not converge is told in worst, and one with values that are not finite ends the run there.
 Trajectory integrate(DynamicSystem& system, const Eigen::VectorXd& f, const Eigen::VectorXd& q0,
                      const Eigen::VectorXd& v0, const DynamicOptions& options, const Progress& progress = {});
 

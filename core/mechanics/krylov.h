@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <type_traits>
 #include <vector>
 
 #include "base/progress.h"
@@ -9,17 +10,27 @@
 
 namespace glisson::mechanics {
 
-/// Arrays of LatticeOperator<double>::size() values; sums are made in fixed chunks (same bits with any threads).
-double dot(const std::vector<double>& a, const std::vector<double>& b);
-double norm(const std::vector<double>& a);
+/// Arrays of LatticeOperator<T>::size() values, T = float or double; sums are made in double and in fixed chunks (same
+/// bits with any threads).
+template <class T, class Z>
+double dot(const std::vector<T>& a, const std::vector<Z>& b);
+template <class T>
+double norm(const std::vector<T>& a);
 
-/// z = M⁻¹ r; z is 0 where r belongs to a fixed degree of freedom or to no node.
-using Preconditioning = std::function<void(const std::vector<double>& r, std::vector<double>& z)>;
+/// z = M⁻¹ r; z is 0 where r belongs to a fixed degree of freedom or to no node. z may be in float where r is in
+/// double.
+template <class T, class Z = T>
+using PreconditioningOf = std::function<void(const std::vector<T>& r, std::vector<Z>& z)>;
+using Preconditioning = PreconditioningOf<double>;
 
 struct KrylovOptions {
   int limit = 1000;
-  double tolerance = 1e-8;  ///< on ‖b − A x‖ / ‖b‖, recomputed in double before it is believed
+  double tolerance = 1e-8;  ///< on ‖b − A x‖ / ‖b‖, recomputed in T before it is believed
   bool flexible = false;    ///< Polak-Ribière β: for a preconditioner that is only nearly linear (float)
+  bool recursive = false;   ///< believes the recursion: for corrections whose caller recomputes the residual
+  /// Asked every few iterations with the number that the rate since the last change would take in all; true says that M
+  /// has changed, and the solve goes on from where it is.
+  std::function<bool(int expected)> slow;
   bool energyToo = false;  ///< also asks √(rᵀM⁻¹r / bᵀM⁻¹b) ≤ tolerance: bounds the error where contrast is strong
 };
 
@@ -32,7 +43,9 @@ struct KrylovResult {
 /// Preconditioned conjugate gradients for A x = b from x = 0, b ≠ 0 and 0 at fixed degrees of freedom. Restarts from
 /// the true residual where the recursion has drifted from it. Ends with Indefinite where pᵀA p ≤ 0 and with NotFinite
 /// where a number is not finite.
-KrylovResult conjugateGradients(const LatticeOperator<double>& A, const std::vector<double>& b, std::vector<double>& x,
-                                const Preconditioning& M, const KrylovOptions& options, const Progress& progress);
+template <class T, class Z = T>
+KrylovResult conjugateGradients(const LatticeOperator<T>& A, const std::vector<T>& b, std::vector<T>& x,
+                                const std::type_identity_t<PreconditioningOf<T, Z>>& M, const KrylovOptions& options,
+                                const Progress& progress);
 
 }  // namespace glisson::mechanics

@@ -37,12 +37,14 @@ struct Multigrid::State {
     prolongTo(*level.A.lattice, *next.A.lattice, level.halved, next.x.data(), level.inverseDiagonal.data(),
               level.d.data());
     level.A.apply(level.d.data(), level.y.data());
-    parallelChunks(level.x.size(), chunk, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        level.x[i] += level.d[i];
-        level.r[i] -= level.y[i];
-      }
-    });
+    parallelChunks(level.x.size(), chunk,
+                   [x = level.x.data(), r = level.r.data(), d = level.d.data(), y = level.y.data()](std::size_t begin,
+                                                                                                    std::size_t end) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                       x[i] += d[i];
+                       r[i] -= y[i];
+                     }
+                   });
     level.smooth(false, options.degree, options.smoothed, false);
   }
 };
@@ -105,22 +107,47 @@ Multigrid::~Multigrid() = default;
 Multigrid::Multigrid(Multigrid&&) noexcept = default;
 Multigrid& Multigrid::operator=(Multigrid&&) noexcept = default;
 
-void Multigrid::cycle(const std::vector<double>& r, std::vector<double>& z) {
+template <class T>
+void Multigrid::cycle(const std::vector<T>& r, std::vector<float>& z) {
   MultigridLevel& top = state_->levels.front();
-  parallelChunks(r.size(), chunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) top.r[i] = static_cast<float>(r[i]);
+  parallelChunks(r.size(), chunk, [from = r.data(), to = top.r.data()](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) to[i] = static_cast<float>(from[i]);
   });
   state_->cycle(0);
-  parallelChunks(r.size(), chunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) z[i] = top.x[i];
-  });
+  // The next cycle writes the level's x before it reads it.
+  if (z.size() == top.x.size())
+    z.swap(top.x);
+  else
+    z = top.x;
 }
+
+void Multigrid::cycle(const std::vector<double>& r, std::vector<double>& z) {
+  std::vector<float> inFloat;
+  cycle(r, inFloat);
+  z.assign(inFloat.begin(), inFloat.end());
+}
+
+template void Multigrid::cycle<float>(const std::vector<float>&, std::vector<float>&);
+template void Multigrid::cycle<double>(const std::vector<double>&, std::vector<float>&);
 
 bool Multigrid::boundByCells() {
   if (state_->options.boundByCells) return false;
   state_->options.boundByCells = true;
   for (std::size_t l = 0; l + 1 < state_->levels.size(); ++l) state_->levels[l].bound(true);
   return true;
+}
+
+bool Multigrid::lengthen(double factor) {
+  MultigridOptions& o = state_->options;
+  const int degree = std::min(MultigridOptions::longest, static_cast<int>(std::ceil(factor * o.degree)));
+  if (degree <= o.degree) return false;
+  o.smoothed *= static_cast<double>(degree) * degree / (static_cast<double>(o.degree) * o.degree);
+  o.degree = degree;
+  return true;
+}
+
+int Multigrid::degree() const {
+  return state_->options.degree;
 }
 
 int Multigrid::levels() const {

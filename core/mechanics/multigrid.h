@@ -12,7 +12,8 @@ struct MultigridOptions {
   int degree = 5;             ///< of the Chebyshev smoother, before and after each coarse correction
   double smoothed = 24;       ///< the smoother acts on eigenvalues of D⁻¹K in [λmax / smoothed, λmax]
   bool boundByCells = false;  ///< λmax from single cells, which always holds, not from iteration (spectral_bound.h)
-  int coarsestDofs = 1500;    ///< factorised at or below this size
+  static constexpr int longest = 40;  ///< degree
+  int coarsestDofs = 1500;            ///< factorised at or below this size
 
   /// Near incompressible bodies take longer polynomials over a wider range: half the iterations for the same products.
   static MultigridOptions forPoisson(double poisson);
@@ -41,13 +42,22 @@ class Multigrid {
   Multigrid(Multigrid&&) noexcept;
   Multigrid& operator=(Multigrid&&) noexcept;
 
-  /// z ≈ A⁻¹ r up to a constant factor, row storage; z is 0 at fixed degrees of freedom. Same bits with any number of
-  /// threads. Not for several threads at once.
+  /// z ≈ A⁻¹ r up to a constant factor, row storage, T = float or double; z is 0 at fixed degrees of freedom, and
+  /// trades its memory where it has r's size. Same bits with any number of threads. Not for several threads at once.
+  template <class T>
+  void cycle(const std::vector<T>& r, std::vector<float>& z);
   void cycle(const std::vector<double>& r, std::vector<double>& z);
 
   /// Takes the bound that always holds on every level; false where it is taken already. For a solve that met pᵀ A p ≤ 0
   /// or rᵀ B r ≤ 0: the sharper bound fails in one body of ten thousand at worst.
   bool boundByCells();
+
+  /// Makes the smoother's polynomial longer by a factor, up to MultigridOptions::longest, over a range that grows with
+  /// its square: fewer iterations for the same number of products, where the coarse correction is poor. False where it
+  /// is as long as it may be.
+  bool lengthen(double factor);
+  /// Of the smoother.
+  int degree() const;
 
   int levels() const;
   /// "221 133 → 28 890 → ..." degrees of freedom per level.

@@ -64,7 +64,24 @@ void forParents(const RowLattice& coarse, const Halved& halved, int i, int j, in
       }
 }
 
-/// r −= y; d = a d + b D⁻¹ r; x += d (or x = d).
+// Loops over plain pointers: the checked operator[] of vectors keeps them from the vector registers.
+
+/// d = a D⁻¹ r; x += d, or x = d.
+void chebyshevStart(std::size_t begin, std::size_t end, float a, bool fromZero, const float* inverseDiagonal,
+                    const float* r, float* d, float* x) {
+  if (fromZero) {
+#pragma GCC ivdep
+    for (std::size_t i = begin; i < end; ++i) x[i] = d[i] = a * inverseDiagonal[i] * r[i];
+    return;
+  }
+#pragma GCC ivdep
+  for (std::size_t i = begin; i < end; ++i) {
+    d[i] = a * inverseDiagonal[i] * r[i];
+    x[i] += d[i];
+  }
+}
+
+/// r −= y; d = a d + b D⁻¹ r; x += d.
 void chebyshevStep(std::size_t begin, std::size_t end, float a, float b, const float* inverseDiagonal, const float* y,
                    float* r, float* d, float* x) {
 #pragma GCC ivdep
@@ -140,10 +157,7 @@ void MultigridLevel::smooth(bool fromZero, int degree, double smoothed, bool kee
   double rho = 1 / sigma;
   const auto first = static_cast<float>(1 / theta);
   forRange(x.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      d[i] = first * inverseDiagonal[i] * r[i];
-      x[i] = fromZero ? d[i] : x[i] + d[i];
-    }
+    chebyshevStart(begin, end, first, fromZero, inverseDiagonal.data(), r.data(), d.data(), x.data());
   });
   for (int step = 1; step < degree; ++step) {
     const double next = 1 / (2 * sigma - rho);
@@ -157,8 +171,8 @@ void MultigridLevel::smooth(bool fromZero, int degree, double smoothed, bool kee
   }
   if (!keepResidual) return;
   A.apply(d.data(), y.data());
-  forRange(x.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) r[i] -= y[i];
+  forRange(x.size(), [rs = r.data(), ys = y.data()](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) rs[i] -= ys[i];
   });
 }
 

@@ -76,12 +76,9 @@ template <class T>
 auto fastestRow() {
 #if defined(__x86_64__)
   switch (instructionSet()) {
-    case InstructionSet::Avx512:
-      return &addRowAvx512<T>;
-    case InstructionSet::Avx2:
-      return &addRowAvx2<T>;
-    default:
-      break;
+    case InstructionSet::Avx512: return &addRowAvx512<T>;
+    case InstructionSet::Avx2: return &addRowAvx2<T>;
+    default: break;
   }
 #endif
   return &addRowPortable<T>;

@@ -20,13 +20,18 @@ namespace {
 
 // Crossovers as tests/benchmark measures them: a factor costs what 8 multigrid solves do at 1,700 degrees of freedom,
 // what 30 do at 4,400, and its solves are no quicker from 8,000 on.
-constexpr int directSize = 1500;       ///< degrees of freedom that are factorised at once
-constexpr int manyLoadsSize = 6000;    ///< degrees of freedom that are factorised once many loads have come
-constexpr int manyLoads = 8;           ///< loads solved by iteration before that
-constexpr double hardContrast = 1e3;   ///< of moduli, where multigrid by mean moduli begins to slow down
-constexpr double hardPoisson = 0.495;  ///< likewise
-constexpr int hardSize = 30000;        ///< degrees of freedom up to which a factor is worth its second and its 300 MB
-constexpr int multigridLimit = 1000;   ///< iterations before Auto falls back
+constexpr int directSize = 1500;        ///< degrees of freedom that are factorised at once
+constexpr int manyLoadsSize = 6000;     ///< degrees of freedom that are factorised once many loads have come
+constexpr int manyLoads = 8;            ///< loads solved by iteration before that
+constexpr double hardContrast = 1e3;    ///< of moduli, where multigrid by mean moduli begins to slow down
+constexpr double hardPoisson = 0.495;   ///< likewise
+constexpr int hardSize = 30000;         ///< degrees of freedom up to which a factor is worth its second and its 300 MB
+constexpr int multigridLimit = 1000;    ///< iterations before Auto falls back
+constexpr int slowIterations = 45;      ///< multigrid iterations in all from which a larger coarsest level pays
+constexpr int slowerIterations = 60;    ///< with it, those from which the smoother is lengthened
+constexpr int wantedIterations = 40;    ///< what that aims at
+constexpr int largerCoarsest = 8000;    ///< degrees of freedom
+constexpr double longPoisson = 0.4925;  ///< from which the smoother is long from the start (MultigridOptions)
 
 }  // namespace
 
@@ -98,8 +103,25 @@ struct StaticSolver::State {
 
   std::unique_ptr<Multigrid> multigrid;   ///< made when first needed
   bool multigridFailed = false;           ///< then Auto does not try again
+  bool strengthened = false;              ///< the multigrid has the larger coarsest level, if there is one
   int loads = 0;                          ///< solved so far
   std::unique_ptr<Factorisation> factor;  ///< likewise
+
+  /// Makes a slow multigrid quicker, first by a larger coarsest level: mean moduli are poorest on the coarsest ones,
+  /// whose cells mix stiff and soft parts. False where there is nothing left to try.
+  bool strengthen(int expected) {
+    if (!strengthened) {
+      strengthened = true;
+      const int levels = multigrid->levels();
+      MultigridOptions strong = MultigridOptions::forPoisson(op.body().poisson);
+      strong.coarsestDofs = largerCoarsest;
+      multigrid.reset();
+      multigrid = std::make_unique<Multigrid>(op, strong);
+      if (multigrid->levels() < levels) return true;
+    }
+    if (expected <= slowerIterations) return false;
+    return multigrid->lengthen(static_cast<double>(expected) / wantedIterations);
+  }
 
   KrylovResult runMultigrid(const std::vector<double>& b, std::vector<double>& x, int limit, const Progress& progress) {
     if (!multigrid) multigrid = std::make_unique<Multigrid>(op, MultigridOptions::forPoisson(op.body().poisson));
@@ -108,13 +130,16 @@ struct StaticSolver::State {
     k.tolerance = options.tolerance;
     k.flexible = true;
     k.energyToo = true;
-    const Preconditioning cycle = [this](const std::vector<double>& r, std::vector<double>& z) {
+    // Beyond that ratio the volume is what is slow, which neither mends, and a new start costs iterations.
+    if (op.body().poisson <= longPoisson)
+      k.slow = [this](int expected) { return expected > slowIterations && strengthen(expected); };
+    const PreconditioningOf<double, float> cycle = [this](const std::vector<double>& r, std::vector<float>& z) {
       multigrid->cycle(r, z);
     };
-    KrylovResult result = conjugateGradients(op.lattice(), b, x, cycle, k, progress);
+    KrylovResult result = conjugateGradients<double, float>(op.lattice(), b, x, cycle, k, progress);
     if (result.status == SolveStatus::Indefinite && multigrid->boundByCells()) {
       const int spent = result.iterations;
-      result = conjugateGradients(op.lattice(), b, x, cycle, k, progress);
+      result = conjugateGradients<double, float>(op.lattice(), b, x, cycle, k, progress);
       result.iterations += spent;
     }
     return result;
@@ -163,10 +188,43 @@ struct StaticSolver::State {
     return conjugateGradients(op.lattice(), b, x, preconditioning(kind), k, progress);
   }
 
+  /// The load on the free degrees of freedom, that of prescribed displacements included, over its largest entry, which
+  /// is returned.
+  double rightSide(const NodalField& f_N, std::vector<double>& right) const;
+  /// Where rounding alone leaves the residual that a solve ended with, it has converged.
+  void acceptRounding(Solution& solution, double bNorm) const;
   KrylovResult run(const std::vector<double>& b, std::vector<double>& x, SolveReport& report, const Progress& progress);
   KrylovResult runAuto(const std::vector<double>& b, std::vector<double>& x, SolveReport& report,
                        const Progress& progress);
 };
+
+double StaticSolver::State::rightSide(const NodalField& f_N, std::vector<double>& right) const {
+  const NodalField& lifted = op.prescribed_m();
+  if ((lifted.array() != 0).any()) {
+    op.toSlots(f_N + (op.springForce(lifted) - op.applyFree(lifted)), right.data());
+  } else {
+    op.toSlots(f_N, right.data());
+  }
+  op.lattice().project(right.data());
+  double scale = 0;
+  for (const double v : right) scale = std::max(scale, std::abs(v));
+  if (scale > 0)
+    for (double& v : right) v /= scale;
+  return scale;
+}
+
+void StaticSolver::State::acceptRounding(Solution& solution, double bNorm) const {
+  NodalField forces = op.diagonal().cwiseProduct(solution.u_m);
+  op.project(forces);
+  const double floor = 4 * std::numeric_limits<double>::epsilon() * forces.norm() / bNorm;
+  SolveReport& report = solution.report;
+  if (!(report.residual <= floor)) return;
+  std::ostringstream note;
+  note << "; the residual reached the rounding of double precision, " << floor << ", above the tolerance asked for";
+  report.why += note.str();
+  report.tolerance = floor;
+  report.status = SolveStatus::Converged;
+}
 
 KrylovResult StaticSolver::State::run(const std::vector<double>& b, std::vector<double>& x, SolveReport& report,
                                       const Progress& progress) {
@@ -187,8 +245,7 @@ KrylovResult StaticSolver::State::run(const std::vector<double>& b, std::vector<
       report.why = "asked for; degrees of freedom per level " + multigrid->describe();
       return result;
     }
-    case SolverKind::Auto:
-      break;
+    case SolverKind::Auto: break;
   }
   return runAuto(b, x, report, progress);
 }
@@ -294,46 +351,31 @@ Solution StaticSolver::solve(const NodalField& f_N, const Progress& progress) {
   if (!f_N.allFinite()) throw BadInput("the load is not finite at some node");
   Solution solution;
   solution.report.tolerance = s.options.tolerance;
-  NodalField b = f_N;
-  const NodalField& lifted = s.op.prescribed_m();
-  if ((lifted.array() != 0).any()) b += s.op.springForce(lifted) - s.op.applyFree(lifted);
-  s.op.project(b);
-  solution.u_m = lifted;
-  const double scale = b.cwiseAbs().maxCoeff();
+  std::vector<double> right(s.op.lattice().size());
+  const double scale = s.rightSide(f_N, right);
   if (scale == 0) {
     solution.report.kind = "none";
     solution.report.why = "no load on a free degree of freedom";
     solution.report.status = SolveStatus::Converged;
+    solution.u_m = s.op.prescribed_m();
   } else {
-    std::vector<double> right(s.op.lattice().size());
     std::vector<double> x;
-    s.op.toSlots(b / scale, right.data());
     const KrylovResult result = s.run(right, x, solution.report, progress);
     solution.report.status = result.status;
     solution.report.iterations = result.iterations;
     solution.report.residual = result.residual;
-    NodalField w;
-    s.op.fromSlots(x.data(), w);
-    solution.u_m += scale * w;
-    NodalField forces = s.op.diagonal().cwiseProduct(solution.u_m);
-    s.op.project(forces);
-    const double floor = 4 * std::numeric_limits<double>::epsilon() * forces.norm() / b.norm();
-    SolveReport& report = solution.report;
-    if (report.status == SolveStatus::StoppedAtLimit && report.residual <= floor) {
-      std::ostringstream note;
-      note << "; the residual reached the rounding of double precision, " << floor << ", above the tolerance asked for";
-      report.why += note.str();
-      report.tolerance = floor;
-      report.status = SolveStatus::Converged;
-    }
+    s.op.fromSlots(x.data(), solution.u_m);
+    solution.u_m *= scale;
+    solution.u_m += s.op.prescribed_m();
+    if (result.status == SolveStatus::StoppedAtLimit) s.acceptRounding(solution, scale * norm(right));
   }
+  right = {};
   const NodalField internal = s.op.applyFree(solution.u_m);
-  const NodalField springs = s.op.springForce(solution.u_m);
-  solution.reaction_N = springs;
+  solution.reaction_N = s.op.springForce(solution.u_m);
+  solution.energy_J = 0.5 * (solution.u_m.cwiseProduct(internal - solution.reaction_N)).sum();
   for (int node = 0; node < nodes; ++node)
     for (int c = 0; c < 3; ++c)
       if (s.op.isFixed(node, c)) solution.reaction_N(c, node) = internal(c, node) - f_N(c, node);
-  solution.energy_J = 0.5 * (solution.u_m.cwiseProduct(internal - springs)).sum();
   solution.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return solution;
 }
@@ -345,14 +387,10 @@ Solution solveStatic(const Problem& problem, const SolverOptions& options, const
 
 std::string describe(SolveStatus status) {
   switch (status) {
-    case SolveStatus::Converged:
-      return "converged";
-    case SolveStatus::StoppedAtLimit:
-      return "stopped at the iteration limit";
-    case SolveStatus::Indefinite:
-      return "met a direction of no stiffness";
-    case SolveStatus::NotFinite:
-      return "met a number that is not finite";
+    case SolveStatus::Converged: return "converged";
+    case SolveStatus::StoppedAtLimit: return "stopped at the iteration limit";
+    case SolveStatus::Indefinite: return "met a direction of no stiffness";
+    case SolveStatus::NotFinite: return "met a number that is not finite";
   }
   return "unknown";
 }

@@ -39,6 +39,7 @@ TimeStepper::TimeStepper(DynamicSystem& system, const Eigen::VectorXd& f, const 
     v_ -= R_ * speed_;
   }
   if (scheme_.euler) {
+    x_ = v_;
     system_.prepare(1.0 + h_ * alpha_, h_ * (h_ + damp_));
     return;
   }
@@ -94,15 +95,14 @@ SolveReport TimeStepper::solve(Eigen::VectorXd& b) {
 }
 
 SolveReport TimeStepper::stepEuler(double to, DynamicState& state) {
-  // The load at the end of the step, as every other force in the implicit scheme.
-  Eigen::VectorXd Kv(q_.size());
-  system_.applyK(v_, Kv);
-  Eigen::VectorXd b = h_ * (to * f_ - Kq_ - (h_ + damp_) * Kv - alpha_ * Mv_);
+  // For the velocity itself: M v₊ + h C v₊ + h² K v₊ = M v + h (f − K q), with the load at the end of the step, as
+  // every other force in the implicit scheme.
+  Eigen::VectorXd b = Mv_ + h_ * (to * f_ - Kq_);
   const SolveReport report = solve(b);
   if (report.status == SolveStatus::NotFinite) return report;
-  v_ += x_;
+  a_ = (x_ - v_) / h_;
+  v_ = x_;
   q_ += h_ * v_;
-  a_ = x_ / h_;
   if (R_.cols() > 0) {
     const Eigen::VectorXd gain = (h_ / (1 + h_ * alpha_)) * (R_.transpose() * (to * f_) - alpha_ * speed_);
     speed_ += gain;
@@ -131,8 +131,8 @@ SolveReport TimeStepper::stepSecondOrder(double from, double to, DynamicState& s
   a_ = a;
   if (R_.cols() > 0) {
     const Eigen::VectorXd s = speed_ + (1 - af) * h_ * (1 - gamma) * acceleration_;
-    const Eigen::VectorXd next = (load * (R_.transpose() * f_) - am * acceleration_ - alpha_ * s) /
-                                 (1 - am + (1 - af) * alpha_ * h_ * gamma);
+    const Eigen::VectorXd next =
+        (load * (R_.transpose() * f_) - am * acceleration_ - alpha_ * s) / (1 - am + (1 - af) * alpha_ * h_ * gamma);
     distance_ += h_ * speed_ + h_ * h_ * ((0.5 - beta) * acceleration_ + beta * next);
     speed_ += h_ * ((1 - gamma) * acceleration_ + gamma * next);
     acceleration_ = next;

@@ -6,8 +6,8 @@
 
 namespace glisson::mechanics {
 
-/// One motion, step by step: what integrate does between two looks at it. Kept apart into the system's free modes and the
-/// rest, which is M-orthogonal to them.
+/// One motion, step by step: what integrate does between two looks at it. Kept apart into the system's free modes and
+/// the rest, which is M-orthogonal to them.
 class TimeStepper {
  public:
   struct Seen {

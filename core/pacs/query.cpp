@@ -4,6 +4,8 @@
 #include <charconv>
 #include <chrono>
 #include <map>
+#include <memory>
+#include <optional>
 
 #include "pacs/detail/association.h"
 #include "pacs/detail/identifier.h"
@@ -154,6 +156,102 @@ std::vector<FoundSeries> seriesOf(Association& association, const Node& node, co
   return all;
 }
 
+std::unique_ptr<Association> associate(const Node& node, const Progress& progress) {
+  return std::make_unique<Association>(node, std::vector<Proposal>{{studyRootFind, plainSyntaxes()}}, progress);
+}
+
+/// The study that a series belongs to; empty where the server knows none. At study level a server need not look for a
+/// series: the study is asked for first.
+std::string studyOfSeries(Association& association, const Node& node, const std::string& seriesUid) {
+  const Keys keys{{QueryLevel, "SERIES"}, {StudyUid, ""}, {SeriesUid, seriesUid}};
+  bool ignored = false;
+  std::string studyUid;
+  for (const Keys& k : ask(association, node, keys, 1, ignored))
+    if (matches(seriesUid, textOf(k, SeriesUid))) studyUid = textOf(k, StudyUid);
+  return isUid(studyUid) ? studyUid : std::string();
+}
+
+Keys studyKeys(const Query& query, const std::string& studyUid) {
+  Keys keys{{QueryLevel, "STUDY"},
+            {StudyUid, studyUid},
+            {StudyDate, query.studyDate},
+            {PatientId, query.patientId},
+            {ModalitiesInStudy, query.modality},
+            {StudyDescription, query.description},
+            {SeriesInStudy, ""},
+            {ObjectsInStudy, ""}};
+  if (query.names || !query.patientName.empty()) keys[PatientName] = query.patientName;
+  if (query.names || !query.accession.empty()) keys[AccessionNumber] = query.accession;
+  return keys;
+}
+
+/// A study out of an answer; none where it is another than was asked for.
+std::optional<FoundStudy> studyOf(const Keys& k, const Query& query, const std::string& studyUid) {
+  FoundStudy s;
+  s.uid = textOf(k, StudyUid);
+  if (!isUid(s.uid) || !matches(studyUid, s.uid)) return {};
+  s.date = textOf(k, StudyDate, 8);
+  s.description = textOf(k, StudyDescription);
+  if (const auto m = k.find(ModalitiesInStudy); m != k.end()) s.modalities = parts(m->second);
+  const bool ofModality =
+      s.modalities.empty() ||
+      std::any_of(s.modalities.begin(), s.modalities.end(), [&](const auto& m) { return matches(query.modality, m); });
+  if (!ofModality) return {};
+  s.seriesCount = numberOf(k, SeriesInStudy, -1);
+  s.objects = numberOf(k, ObjectsInStudy, -1);
+  if (query.names) {
+    s.patientName = textOf(k, PatientName);
+    s.patientId = textOf(k, PatientId);
+    s.accession = textOf(k, AccessionNumber, 16);
+  }
+  return s;
+}
+
+struct Row {
+  std::string identity;  ///< the patient's
+  FoundStudy study;
+};
+
+/// By date; sets more where the list was cut.
+std::vector<Row> studiesOf(Association& association, const Node& node, const Query& query, const std::string& studyUid,
+                           bool& more) {
+  std::vector<Row> rows;
+  for (const Keys& k : ask(association, node, studyKeys(query, studyUid), query.limit, more))
+    if (std::optional<FoundStudy> study = studyOf(k, query, studyUid))
+      rows.push_back({textOf(k, PatientId), std::move(*study)});
+  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+    return std::tie(a.study.date, a.study.uid) < std::tie(b.study.date, b.study.uid);
+  });
+  return rows;
+}
+
+/// Patients by number in the order of their first study.
+void numberPatients(std::vector<Row>& rows) {
+  std::map<std::string, int> patients;
+  for (Row& row : rows)
+    row.study.patient = patients.try_emplace(row.identity, static_cast<int>(patients.size()) + 1).first->second;
+}
+
+/// Gives each study its series, as long as the limit lasts. Returns whether it was reached.
+bool addSeries(Association& association, const Node& node, const Query& query, std::vector<Row>& rows,
+               const Progress& progress) {
+  std::size_t left = query.limit;
+  bool truncated = false;
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    if (left == 0) return true;
+    progress.report(static_cast<double>(n) / static_cast<double>(rows.size()), "asking for series");
+    bool more = false;
+    FoundStudy& study = rows[n].study;
+    study.series = seriesOf(association, node, query, study.uid, left, more);
+    left -= study.series.size();
+    if (more) {
+      truncated = true;
+      left = 0;
+    }
+  }
+  return truncated;
+}
+
 }  // namespace
 
 std::string dateRange(const std::string& text) {
@@ -180,75 +278,19 @@ Found find(const Node& node, const Query& query, const Progress& progress) {
   check(node);
   check(query);
   Found found;
-  auto association =
-      std::make_unique<Association>(node, std::vector<Proposal>{{studyRootFind, plainSyntaxes()}}, progress);
+  auto association = associate(node, progress);
   progress.report(0.1, "asking for studies");
   std::string studyUid = query.studyUid;
   if (!query.seriesUid.empty() && studyUid.empty()) {
-    // At study level a server need not look for a series: the study is asked for first.
-    const Keys keys{{QueryLevel, "SERIES"}, {StudyUid, ""}, {SeriesUid, query.seriesUid}};
-    bool ignored = false;
-    for (const Keys& k : ask(*association, node, keys, 1, ignored))
-      if (matches(query.seriesUid, textOf(k, SeriesUid))) studyUid = textOf(k, StudyUid);
-    if (!isUid(studyUid)) return found;
+    studyUid = studyOfSeries(*association, node, query.seriesUid);
+    if (studyUid.empty()) return found;
   }
-  Keys keys{{QueryLevel, "STUDY"},
-            {StudyUid, studyUid},
-            {StudyDate, query.studyDate},
-            {PatientId, query.patientId},
-            {ModalitiesInStudy, query.modality},
-            {StudyDescription, query.description},
-            {SeriesInStudy, ""},
-            {ObjectsInStudy, ""}};
-  if (query.names || !query.patientName.empty()) keys[PatientName] = query.patientName;
-  if (query.names || !query.accession.empty()) keys[AccessionNumber] = query.accession;
-  std::vector<std::pair<std::string, FoundStudy>> rows;  // with the patient's identity
-  for (const Keys& k : ask(*association, node, keys, query.limit, found.truncated)) {
-    FoundStudy s;
-    s.uid = textOf(k, StudyUid);
-    if (!isUid(s.uid) || !matches(studyUid, s.uid)) continue;
-    s.date = textOf(k, StudyDate, 8);
-    s.description = textOf(k, StudyDescription);
-    if (const auto m = k.find(ModalitiesInStudy); m != k.end()) s.modalities = parts(m->second);
-    const bool ofModality =
-        s.modalities.empty() || std::any_of(s.modalities.begin(), s.modalities.end(),
-                                            [&](const auto& m) { return matches(query.modality, m); });
-    if (!ofModality) continue;
-    s.seriesCount = numberOf(k, SeriesInStudy, -1);
-    s.objects = numberOf(k, ObjectsInStudy, -1);
-    if (query.names) {
-      s.patientName = textOf(k, PatientName);
-      s.patientId = textOf(k, PatientId);
-      s.accession = textOf(k, AccessionNumber, 16);
-    }
-    rows.emplace_back(textOf(k, PatientId), std::move(s));
-  }
-  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.second.date, a.second.uid) < std::tie(b.second.date, b.second.uid);
-  });
+  std::vector<Row> rows = studiesOf(*association, node, query, studyUid, found.truncated);
+  numberPatients(rows);
   // Where the list was cut, this association still has answers under way.
-  if (found.truncated && query.series)
-    association =
-        std::make_unique<Association>(node, std::vector<Proposal>{{studyRootFind, plainSyntaxes()}}, progress);
-  std::map<std::string, int> patients;
-  std::size_t left = query.limit;
-  for (auto& [identity, study] : rows) {
-    study.patient = patients.try_emplace(identity, static_cast<int>(patients.size()) + 1).first->second;
-    if (query.series && left > 0) {
-      progress.report(0.1 + 0.9 * static_cast<double>(found.studies.size()) / static_cast<double>(rows.size()),
-                      "asking for series");
-      bool more = false;
-      study.series = seriesOf(*association, node, query, study.uid, left, more);
-      left -= study.series.size();
-      if (more) {
-        found.truncated = true;
-        left = 0;
-      }
-    } else if (query.series) {
-      found.truncated = true;
-    }
-    found.studies.push_back(std::move(study));
-  }
+  if (found.truncated && query.series) association = associate(node, progress);
+  if (query.series && addSeries(*association, node, query, rows, progress.part(0.1, 1.0))) found.truncated = true;
+  for (Row& row : rows) found.studies.push_back(std::move(row.study));
   if (!found.truncated) association->release();
   progress.report(1.0, "found " + std::to_string(found.studies.size()) + " studies");
   return found;

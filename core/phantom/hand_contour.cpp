@@ -16,86 +16,79 @@ using Loop = std::vector<Point2>;
 
 // Zero level of one slice as closed loops (marching squares). Crossings sit on lattice edges, so an edge is a key: two
 // per lattice point (0: towards the next column, 1: towards the next row). The slice's rim must be outside.
-std::vector<Loop> zeroLevel(const image::ScalarVolume& f, int k) {
-  const int nx = f.grid.size.x();
-  const int ny = f.grid.size.y();
-  auto value = [&](int i, int j) { return static_cast<double>(f.at(i, j, k)); };
-  auto key = [&](int i, int j, int towardsRow) { return (static_cast<long>(j) * nx + i) * 2 + towardsRow; };
-  auto crossing = [&](long edge) {
-    const int towardsRow = static_cast<int>(edge % 2);
-    const int i = static_cast<int>((edge / 2) % nx);
-    const int j = static_cast<int>((edge / 2) / nx);
-    const double a = value(i, j);
-    const double b = towardsRow ? value(i, j + 1) : value(i + 1, j);
-    const double t = a / (a - b);
-    return towardsRow ? Point2(i, j + t) : Point2(i + t, j);
-  };
-  std::map<long, long> next;  // from edge to edge, inside on the left
-  for (int j = 0; j + 1 < ny; ++j)
-    for (int i = 0; i + 1 < nx; ++i) {
-      const int shape = (value(i, j) < 0 ? 1 : 0) | (value(i + 1, j) < 0 ? 2 : 0) | (value(i + 1, j + 1) < 0 ? 4 : 0) |
-                        (value(i, j + 1) < 0 ? 8 : 0);
-      if (shape == 0 || shape == 15) continue;
-      const long top = key(i, j, 0);
-      const long bottom = key(i, j + 1, 0);
-      const long left = key(i, j, 1);
-      const long right = key(i + 1, j, 1);
-      switch (shape) {
-        case 1:
-          next[top] = left;
-          break;
-        case 2:
-          next[right] = top;
-          break;
-        case 3:
-          next[right] = left;
-          break;
-        case 4:
-          next[bottom] = right;
-          break;
-        case 5:
-          next[top] = left;
-          next[bottom] = right;
-          break;
-        case 6:
-          next[bottom] = top;
-          break;
-        case 7:
-          next[bottom] = left;
-          break;
-        case 8:
-          next[left] = bottom;
-          break;
-        case 9:
-          next[top] = bottom;
-          break;
-        case 10:
-          next[right] = top;
-          next[left] = bottom;
-          break;
-        case 11:
-          next[right] = bottom;
-          break;
-        case 12:
-          next[left] = right;
-          break;
-        case 13:
-          next[top] = right;
-          break;
-        default:
-          next[left] = top;
-          break;  // 14
-      }
-    }
+class ZeroLevel {
+ public:
+  ZeroLevel(const image::ScalarVolume& f, int k) : f_(f), k_(k), nx_(f.grid.size.x()), ny_(f.grid.size.y()) {
+    for (int j = 0; j + 1 < ny_; ++j)
+      for (int i = 0; i + 1 < nx_; ++i) addCell(i, j);
+  }
+  // Takes the edges up.
+  std::vector<Loop> loops();
+
+ private:
+  double value(int i, int j) const { return static_cast<double>(f_.at(i, j, k_)); }
+  long key(int i, int j, int towardsRow) const { return (static_cast<long>(j) * nx_ + i) * 2 + towardsRow; }
+  Point2 crossing(long edge) const;
+  // The edges that the level crosses in the cell of which (i, j) is the first corner.
+  void addCell(int i, int j);
+
+  const image::ScalarVolume& f_;
+  int k_, nx_, ny_;
+  std::map<long, long> next_;  // from edge to edge, inside on the left
+};
+
+Point2 ZeroLevel::crossing(long edge) const {
+  const int towardsRow = static_cast<int>(edge % 2);
+  const int i = static_cast<int>((edge / 2) % nx_);
+  const int j = static_cast<int>((edge / 2) / nx_);
+  const double a = value(i, j);
+  const double b = towardsRow ? value(i, j + 1) : value(i + 1, j);
+  const double t = a / (a - b);
+  return towardsRow ? Point2(i, j + t) : Point2(i + t, j);
+}
+
+void ZeroLevel::addCell(int i, int j) {
+  const int shape = (value(i, j) < 0 ? 1 : 0) | (value(i + 1, j) < 0 ? 2 : 0) | (value(i + 1, j + 1) < 0 ? 4 : 0) |
+                    (value(i, j + 1) < 0 ? 8 : 0);
+  const long top = key(i, j, 0);
+  const long bottom = key(i, j + 1, 0);
+  const long left = key(i, j, 1);
+  const long right = key(i + 1, j, 1);
+  switch (shape) {
+    case 1: next_[top] = left; break;
+    case 2: next_[right] = top; break;
+    case 3: next_[right] = left; break;
+    case 4: next_[bottom] = right; break;
+    case 5:
+      next_[top] = left;
+      next_[bottom] = right;
+      break;
+    case 6: next_[bottom] = top; break;
+    case 7: next_[bottom] = left; break;
+    case 8: next_[left] = bottom; break;
+    case 9: next_[top] = bottom; break;
+    case 10:
+      next_[right] = top;
+      next_[left] = bottom;
+      break;
+    case 11: next_[right] = bottom; break;
+    case 12: next_[left] = right; break;
+    case 13: next_[top] = right; break;
+    case 14: next_[left] = top; break;
+    default: break;  // all inside or all outside
+  }
+}
+
+std::vector<Loop> ZeroLevel::loops() {
   std::vector<Loop> loops;
-  while (!next.empty()) {
+  while (!next_.empty()) {
     Loop loop;
-    auto it = next.begin();
-    while (it != next.end()) {
+    auto it = next_.begin();
+    while (it != next_.end()) {
       loop.push_back(crossing(it->first));
       const long to = it->second;
-      next.erase(it);
-      it = next.find(to);
+      next_.erase(it);
+      it = next_.find(to);
     }
     loops.push_back(std::move(loop));
   }
@@ -159,7 +152,7 @@ roi::ContourStack drawByHand(const image::ScalarVolume& distance_mm, std::uint64
   const image::Grid& grid = distance_mm.grid;
   roi::ContourStack stack;
   for (int k = 0; k < grid.size.z(); ++k)
-    for (const Loop& exact : zeroLevel(distance_mm, k)) {
+    for (const Loop& exact : ZeroLevel(distance_mm, k).loops()) {
       const double pixel_mm2 = grid.spacing_mm.x() * grid.spacing_mm.y();
       const double z_mm = grid.spacing_mm.z() * k;
       if (std::abs(signedArea(exact)) * pixel_mm2 < 60.0) continue;

@@ -1,4 +1,4 @@
-#include <limits>
+#include <optional>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -95,6 +95,132 @@ struct CoilShading {
   }
 };
 
+// A patient while it is made, on the grids of its two acquisitions.
+class Making {
+ public:
+  Making(std::uint64_t seed, const PhantomOptions& options, PhantomPatient& patient);
+  void anatomy();
+  void vessels();
+  void mri();
+  void elastography(std::optional<double> shear_kPa);
+  void contours() { patient_.contours = drawByHand(liver_mm_, seed_); }
+
+ private:
+  Point position(std::size_t v) const {
+    return grid_.indexToLps(Point(static_cast<double>(v % pixels), static_cast<double>((v / pixels) % pixels),
+                                  static_cast<double>(v / slice)));
+  }
+
+  static constexpr std::size_t slice = static_cast<std::size_t>(pixels) * pixels;  // voxels of one
+  std::uint64_t seed_;
+  PhantomPatient& patient_;
+  Torso torso_;
+  image::Grid grid_, mreGrid_;
+  // On the MRI grid; signed distances, negative inside.
+  std::vector<float> body_mm_;
+  image::ScalarVolume liver_mm_;
+  std::vector<float> vessel_mm_;
+  std::vector<float> gradientEcho_;  // the elastography sequence's signal
+};
+
+Making::Making(std::uint64_t seed, const PhantomOptions& options, PhantomPatient& patient)
+    : seed_(seed), patient_(patient), torso_(seed, options.shape) {
+  patient.number = options.number;
+  patient.truth.seed = seed;
+  patient.truth.shape = options.shape;
+  // MRE planes lie at multiples of 10 mm and hold the whole liver; the MRI reaches one such step further.
+  const double lowest = std::floor(torso_.liverBottom_mm() / mreSlice_mm) * mreSlice_mm;
+  const double highest = std::ceil(torso_.liverTop_mm() / mreSlice_mm) * mreSlice_mm;
+  const int mreSlices = static_cast<int>(std::lround((highest - lowest) / mreSlice_mm)) + 1;
+  mreGrid_ = gridOf(lowest, mreSlice_mm, mreSlices);
+  grid_ = gridOf(lowest - mreSlice_mm, mriSlice_mm, (mreSlices + 1) * planesPerMreSlice + 1);
+}
+
+void Making::anatomy() {
+  body_mm_.assign(grid_.voxelCount(), farAway);
+  liver_mm_ = image::ScalarVolume(grid_, farAway);
+  parallelChunks(grid_.voxelCount(), slice, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const Point p = position(v);
+      if (std::abs(p.x()) > 200.0 || std::abs(p.y()) > 140.0) continue;
+      body_mm_[v] = static_cast<float>(torso_.body_mm(p));
+      if (body_mm_[v] < 0.0F) liver_mm_.values[v] = static_cast<float>(torso_.liver_mm(p));
+    }
+  });
+  patient_.liver = image::Mask(grid_);
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < liver_mm_.values.size(); ++v)
+    if (liver_mm_.values[v] < 0.0F) {
+      patient_.liver.values[v] = 1;
+      ++count;
+    }
+  patient_.truth.volume_mL = static_cast<double>(count) * grid_.voxelVolume_mm3() / 1000.0;
+}
+
+void Making::vessels() {
+  const LiverVessels grown = growVessels(
+      [&](const Point& p) { return torso_.liver_mm(p); }, Point(-165, -115, torso_.liverBottom_mm()),
+      Point(120, 110, torso_.liverTop_mm()), torso_.portalHilum_lps_mm(), torso_.hepaticConfluence_lps_mm(), seed_);
+  std::vector<VesselBranch>& branches = patient_.truth.vessels;
+  listBranches(grown.portal, "portal", branches);
+  const auto portalBranches = static_cast<int>(branches.size());
+  std::vector<VesselBranch> hepatic;
+  listBranches(grown.hepatic, "hepatic", hepatic);
+  for (VesselBranch& b : hepatic) {
+    if (b.parent >= 0) b.parent += portalBranches;
+    branches.push_back(std::move(b));
+  }
+  vessel_mm_ = vesselDistance(grid_, branches);
+}
+
+void Making::mri() {
+  const CoilShading shading(seed_);
+  patient_.mri = Int16Volume(grid_);
+  gradientEcho_.resize(grid_.voxelCount());
+  parallelChunks(grid_.voxelCount(), slice, [&](std::size_t begin, std::size_t end) {
+    Random r = derived(seed_, 1000 + begin / slice);
+    for (std::size_t v = begin; v < end; ++v) {
+      const Point p = position(v);
+      const Torso::Signal s =
+          torso_.signal(p, static_cast<double>(body_mm_[v]), static_cast<double>(liver_mm_.values[v]),
+                        static_cast<double>(vessel_mm_[v]));
+      const double coil = shading(p);
+      patient_.mri.values[v] = rician(coil * s.contrast, 16.0, r);
+      gradientEcho_[v] = static_cast<float>(coil * s.elastography);
+    }
+  });
+}
+
+void Making::elastography(std::optional<double> shear_kPa) {
+  // MRE slices are thick: the mean over the MRI planes they hold. Distances are those at the middle plane.
+  patient_.magnitude = Int16Volume(mreGrid_);
+  std::vector<float> body(mreGrid_.voxelCount()), liver(mreGrid_.voxelCount()), vessel(mreGrid_.voxelCount());
+  parallelChunks(mreGrid_.voxelCount(), slice, [&](std::size_t begin, std::size_t end) {
+    Random r = derived(seed_, 3000 + begin / slice);
+    const std::size_t middle = (begin / slice + 1) * planesPerMreSlice;  // MRI plane at the same height
+    for (std::size_t v = begin; v < end; ++v) {
+      const std::size_t at = middle * slice + (v - begin);
+      body[v] = body_mm_[at];
+      liver[v] = liver_mm_.values[at];
+      vessel[v] = vessel_mm_[at];
+      const auto echo = [&](std::size_t voxel) { return static_cast<double>(gradientEcho_[voxel]); };
+      const double mean = 0.25 * (echo(at - slice) + echo(at) + echo(at + slice)) +
+                          0.125 * (echo(at - 2 * slice) + echo(at + 2 * slice));
+      patient_.magnitude.values[v] = rician(mean, 9.0, r);
+    }
+  });
+  Random draw = derived(seed_, 81);
+  const double drawn_kPa = 2.0 + 4.0 * std::pow(draw.uniform(), 1.6);
+  ElastogramInput elastogram;
+  elastogram.grid = mreGrid_;
+  elastogram.body_mm = &body;
+  elastogram.liver_mm = &liver;
+  elastogram.vessel_mm = &vessel;
+  elastogram.shear_kPa = shear_kPa.value_or(drawn_kPa);
+  elastogram.seed = seed_;
+  fillElastogram(elastogram, patient_);
+}
+
 }  // namespace
 
 PhantomPatient makePhantom(std::uint64_t seed, const PhantomOptions& options, const Progress& progress) {
@@ -103,107 +229,17 @@ PhantomPatient makePhantom(std::uint64_t seed, const PhantomOptions& options, co
   if (options.shear_kPa && !(*options.shear_kPa >= 0.5 && *options.shear_kPa <= 15.0))
     throw BadArgument("makePhantom: mean shear modulus " + std::to_string(*options.shear_kPa) + " kPa; give 0.5 to 15");
   PhantomPatient patient;
-  patient.number = options.number;
-  patient.truth.seed = seed;
-  patient.truth.shape = options.shape;
   progress.report(0.0, "anatomy");
-  const Torso torso(seed, options.shape);
-
-  // MRE planes lie at multiples of 10 mm and hold the whole liver; the MRI reaches one such step further.
-  const double lowest = std::floor(torso.liverBottom_mm() / mreSlice_mm) * mreSlice_mm;
-  const double highest = std::ceil(torso.liverTop_mm() / mreSlice_mm) * mreSlice_mm;
-  const int mreSlices = static_cast<int>(std::lround((highest - lowest) / mreSlice_mm)) + 1;
-  const image::Grid mreGrid = gridOf(lowest, mreSlice_mm, mreSlices);
-  const image::Grid grid = gridOf(lowest - mreSlice_mm, mriSlice_mm, (mreSlices + 1) * planesPerMreSlice + 1);
-  const auto slice = static_cast<std::size_t>(pixels) * pixels;
-  auto position = [&](std::size_t v) {
-    return grid.indexToLps(Point(static_cast<double>(v % pixels), static_cast<double>((v / pixels) % pixels),
-                                 static_cast<double>(v / slice)));
-  };
-
-  std::vector<float> body(grid.voxelCount(), farAway);
-  image::ScalarVolume liver(grid, farAway);
-  parallelChunks(grid.voxelCount(), slice, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      const Point p = position(v);
-      if (std::abs(p.x()) > 200.0 || std::abs(p.y()) > 140.0) continue;
-      body[v] = static_cast<float>(torso.body_mm(p));
-      if (body[v] < 0.0F) liver.values[v] = static_cast<float>(torso.liver_mm(p));
-    }
-  });
-  patient.liver = image::Mask(grid);
-  std::size_t count = 0;
-  for (std::size_t v = 0; v < liver.values.size(); ++v)
-    if (liver.values[v] < 0.0F) {
-      patient.liver.values[v] = 1;
-      ++count;
-    }
-  patient.truth.volume_mL = static_cast<double>(count) * grid.voxelVolume_mm3() / 1000.0;
+  Making making(seed, options, patient);
+  making.anatomy();
   progress.report(0.25, "vessels");
-
-  const LiverVessels vessels = growVessels(
-      [&](const Point& p) { return torso.liver_mm(p); }, Point(-165, -115, torso.liverBottom_mm()),
-      Point(120, 110, torso.liverTop_mm()), torso.portalHilum_lps_mm(), torso.hepaticConfluence_lps_mm(), seed);
-  listBranches(vessels.portal, "portal", patient.truth.vessels);
-  const auto portalBranches = static_cast<int>(patient.truth.vessels.size());
-  std::vector<VesselBranch> hepatic;
-  listBranches(vessels.hepatic, "hepatic", hepatic);
-  for (VesselBranch& b : hepatic) {
-    if (b.parent >= 0) b.parent += portalBranches;
-    patient.truth.vessels.push_back(std::move(b));
-  }
-  const std::vector<float> vessel = vesselDistance(grid, patient.truth.vessels);
+  making.vessels();
   progress.report(0.4, "magnetic resonance images");
-
-  const CoilShading shading(seed);
-  patient.mri = Int16Volume(grid);
-  std::vector<float> gradientEcho(grid.voxelCount());
-  parallelChunks(grid.voxelCount(), slice, [&](std::size_t begin, std::size_t end) {
-    Random r = derived(seed, 1000 + begin / slice);
-    for (std::size_t v = begin; v < end; ++v) {
-      const Point p = position(v);
-      const Torso::Signal s = torso.signal(p, static_cast<double>(body[v]), static_cast<double>(liver.values[v]),
-                                           static_cast<double>(vessel[v]));
-      const double coil = shading(p);
-      patient.mri.values[v] = rician(coil * s.contrast, 16.0, r);
-      gradientEcho[v] = static_cast<float>(coil * s.elastography);
-    }
-  });
+  making.mri();
   progress.report(0.75, "elastography");
-
-  // MRE slices are thick: the mean over the MRI planes they hold. Distances are those at the middle plane.
-  patient.magnitude = Int16Volume(mreGrid);
-  std::vector<float> bodyMre(mreGrid.voxelCount());
-  std::vector<float> liverMre(mreGrid.voxelCount());
-  std::vector<float> vesselMre(mreGrid.voxelCount());
-  parallelChunks(mreGrid.voxelCount(), slice, [&](std::size_t begin, std::size_t end) {
-    Random r = derived(seed, 3000 + begin / slice);
-    const std::size_t middle = (begin / slice + 1) * planesPerMreSlice;  // MRI plane at the same height
-    for (std::size_t v = begin; v < end; ++v) {
-      const std::size_t at = middle * slice + (v - begin);
-      bodyMre[v] = body[at];
-      liverMre[v] = liver.values[at];
-      vesselMre[v] = vessel[at];
-      const double mean =
-          0.25 * (static_cast<double>(gradientEcho[at - slice]) + static_cast<double>(gradientEcho[at]) +
-                  static_cast<double>(gradientEcho[at + slice])) +
-          0.125 *
-              (static_cast<double>(gradientEcho[at - 2 * slice]) + static_cast<double>(gradientEcho[at + 2 * slice]));
-      patient.magnitude.values[v] = rician(mean, 9.0, r);
-    }
-  });
-  Random draw = derived(seed, 81);
-  const double drawn_kPa = 2.0 + 4.0 * std::pow(draw.uniform(), 1.6);
-  ElastogramInput elastogram;
-  elastogram.grid = mreGrid;
-  elastogram.body_mm = &bodyMre;
-  elastogram.liver_mm = &liverMre;
-  elastogram.vessel_mm = &vesselMre;
-  elastogram.shear_kPa = options.shear_kPa.value_or(drawn_kPa);
-  elastogram.seed = seed;
-  fillElastogram(elastogram, patient);
+  making.elastography(options.shear_kPa);
   progress.report(0.95, "contours");
-  patient.contours = drawByHand(liver, seed);
+  making.contours();
   progress.report(1.0, "patient");
   return patient;
 }

@@ -24,16 +24,12 @@ double dome_mm(const Ellipsoid& e, const Point& p) {
 
 double shareOfUsualVolume(LiverShape shape) {
   switch (shape) {
-    case LiverShape::Short:
-      return 0.72;
-    case LiverShape::ThinLobe:
-      return 0.68;
-    case LiverShape::Riedel:
-      return 1.10;
+    case LiverShape::Short: return 0.72;
+    case LiverShape::ThinLobe: return 0.68;
+    case LiverShape::Riedel: return 1.10;
     case LiverShape::Usual:
     case LiverShape::Wide:
-    case LiverShape::LargeLeft:
-      break;
+    case LiverShape::LargeLeft: break;
   }
   return 1.0;
 }
@@ -85,8 +81,7 @@ Torso::Torso(std::uint64_t seed, LiverShape shape) : seed_(seed) {
 
 void Torso::reshape(LiverShape shape) {
   switch (shape) {
-    case LiverShape::Usual:
-      break;
+    case LiverShape::Usual: break;
     case LiverShape::Short:
       rightLobe_.centre_lps_mm.z() += 26.0;
       rightLobe_.radii_mm.z() *= 0.60;
@@ -101,9 +96,7 @@ void Torso::reshape(LiverShape shape) {
       rightLobe_.radii_mm.y() *= 0.42;
       rightLobe_.centre_lps_mm.y() += 4.0;
       break;
-    case LiverShape::Riedel:
-      tongues_.push_back({{-103, -6, -112}, {30, 25, 74}, rotation(4, 3, 0)});
-      break;
+    case LiverShape::Riedel: tongues_.push_back({{-103, -6, -112}, {30, 25, 74}, rotation(4, 3, 0)}); break;
     case LiverShape::LargeLeft:
       rightLobe_.radii_mm = rightLobe_.radii_mm.cwiseProduct(Point(0.82, 0.88, 0.80));
       leftLobe_.centre_lps_mm += Point(30, 14, -6);

@@ -41,6 +41,8 @@ class Torso {
   Signal signal(const Point& p, double body_mm, double liver_mm, double vessel_mm) const;
 
  private:
+  struct Painting;  // of one point, in torso_signal.cpp
+
   double wall_mm(const Point& p) const;       // thickness of skin, fat and muscle at the angle of p
   double diaphragm_mm(const Point& p) const;  // negative below the diaphragm
   double liverBlobs_mm(const Point& p) const;

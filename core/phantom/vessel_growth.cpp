@@ -72,72 +72,104 @@ int leaving(const VesselTree& tree, const Distance& liver_mm) {
   return -1;
 }
 
-LiverVessels growOnce(const Distance& liver_mm, const Point& low, const Point& high, const Point& portalHilum,
-                      const Point& hepaticConfluence, std::uint64_t seed, int attempt) {
-  LiverVessels v{VesselTree(portalHilum, portalRoot_mm), VesselTree(hepaticConfluence, hepaticRoot_mm)};
-  Random random = derived(seed, 31 + 1000 * static_cast<std::uint64_t>(attempt));
+// Both trees of one attempt while they grow.
+class Growth {
+ public:
+  Growth(const Distance& liver_mm, const Point& portalHilum, const Point& hepaticConfluence, std::uint64_t seed,
+         int attempt)
+      : liver_mm_(liver_mm),
+        attempt_(attempt),
+        random_(derived(seed, 31 + 1000 * static_cast<std::uint64_t>(attempt))),
+        trees_{VesselTree(portalHilum, portalRoot_mm), VesselTree(hepaticConfluence, hepaticRoot_mm)} {}
+
+  void mainBranches();
+  void terminals(const Point& low, const Point& high);
+  // Curves the vessels, and takes away what then leaves the liver or meets the other tree.
+  void curve();
+  const LiverVessels& trees() const { return trees_; }
+
+ private:
+  enum class Tree { Portal, Hepatic };
+  VesselTree& own(Tree tree) { return tree == Tree::Portal ? trees_.portal : trees_.hepatic; }
+  const VesselTree& other(Tree tree) { return tree == Tree::Portal ? trees_.hepatic : trees_.portal; }
+
+  bool grow(Tree tree, const Point& terminal, bool toRoot);
+  // A main branch from the root; where the liver's shape forbids it, it is pulled in.
+  void lead(Tree tree, const Point& way, bool toRoot = false);
+
+  const Distance& liver_mm_;
+  int attempt_;
+  Random random_;
+  LiverVessels trees_;
+};
+
+bool Growth::grow(Tree tree, const Point& terminal, bool toRoot) {
+  VesselTree& grown = own(tree);
+  const VesselTree& beside = other(tree);
+  return grown.add(
+      terminal,
+      [&](const Point& a, const Point& b, double early) {
+        // A young tree's few branches stand for more flow than they will carry: rarely over 60 % of it.
+        const double radius = std::min(early, 0.84 * grown.rootRadius_mm());
+        return inside(liver_mm_, a, b, radius) && clear(beside, a, b, radius, treeGap_mm, false) &&
+               clear(grown, a, b, radius, 0.0, true);
+      },
+      toRoot);
+}
+
+void Growth::lead(Tree tree, const Point& way, bool toRoot) {
+  const Point from = own(tree).nodes().front().p_lps_mm;
+  Point to = from + way;
+  for (int i = 0; i < 3; ++i) to[i] += std::min(attempt_, 12) * random_.uniform(-2.0, 2.0);
+  for (int i = 0; i < 12; ++i) {
+    if (liver_mm_(to) < -8.0 && grow(tree, to, toRoot)) return;
+    to = from + 0.92 * (to - from) + Point(random_.uniform(-3, 3), random_.uniform(-3, 3), random_.uniform(-3, 3));
+  }
+}
+
+// The first terminals make the main branches of textbook anatomy.
+void Growth::mainBranches() {
+  lead(Tree::Portal, Point(-62, 14, -6));           // right trunk
+  lead(Tree::Hepatic, Point(-84, 10, -34), true);   // right vein
+  lead(Tree::Portal, Point(34, -44, 30), true);     // left trunk, umbilical portion
+  lead(Tree::Hepatic, Point(-22, -58, -40), true);  // middle vein
+  lead(Tree::Hepatic, Point(46, -50, -12));         // left vein
+  lead(Tree::Portal, Point(-58, -34, 24));          // right anterior
+  lead(Tree::Portal, Point(-56, 20, -58));          // right posterior, inferior
+  lead(Tree::Portal, Point(-66, 24, 44));           // right posterior, superior
+}
+
+void Growth::terminals(const Point& low, const Point& high) {
   const Point extent = high - low;
-
-  auto grow = [&](VesselTree& own, const VesselTree& other, const Point& terminal, bool toRoot) {
-    return own.add(
-        terminal,
-        [&](const Point& a, const Point& b, double early) {
-          // A young tree's few branches stand for more flow than they will carry: rarely over 60 % of it.
-          const double radius = std::min(early, 0.84 * own.rootRadius_mm());
-          return inside(liver_mm, a, b, radius) && clear(other, a, b, radius, treeGap_mm, false) &&
-                 clear(own, a, b, radius, 0.0, true);
-        },
-        toRoot);
-  };
-  // The first terminals make the main branches of textbook anatomy; where a liver's shape forbids one, it is
-  // pulled in.
-  auto lead = [&](VesselTree& own, const VesselTree& other, const Point& from, Point to, bool toRoot) {
-    for (int i = 0; i < 3; ++i) to[i] += std::min(attempt, 12) * random.uniform(-2.0, 2.0);
-    for (int i = 0; i < 12; ++i) {
-      if (liver_mm(to) < -8.0 && grow(own, other, to, toRoot)) return;
-      to = from + 0.92 * (to - from) + Point(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3));
-    }
-  };
-  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-62, 14, -6), false);              // right trunk
-  lead(v.hepatic, v.portal, hepaticConfluence, hepaticConfluence + Point(-84, 10, -34), true);  // right vein
-  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(34, -44, 30),
-       true);  // left trunk, umbilical portion
-  lead(v.hepatic, v.portal, hepaticConfluence, hepaticConfluence + Point(-22, -58, -40),
-       true);                                                                                    // middle vein
-  lead(v.hepatic, v.portal, hepaticConfluence, hepaticConfluence + Point(46, -50, -12), false);  // left vein
-  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-58, -34, 24), false);              // right anterior
-  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-56, 20, -58),
-       false);  // right posterior, inferior
-  lead(v.portal, v.hepatic, portalHilum, portalHilum + Point(-66, 24, 44),
-       false);  // right posterior, superior
-
+  const auto leaves = [&](Tree tree) { return own(tree).leaves(); };
   double reach_mm = 26.0;  // a terminal far from the tree serves more tissue: take the far ones first
   int misses = 0;
-  while ((v.portal.leaves() < portalTerminals || v.hepatic.leaves() < hepaticTerminals) && reach_mm > 5.0) {
-    const Point p = low + extent.cwiseProduct(Point(random.uniform(), random.uniform(), random.uniform()));
-    if (liver_mm(p) > -4.5) continue;
-    const bool portal = v.portal.leaves() * hepaticTerminals <= v.hepatic.leaves() * portalTerminals;
-    VesselTree& own = portal ? v.portal : v.hepatic;
-    const VesselTree& other = portal ? v.hepatic : v.portal;
-    if (own.distance_mm(p) > reach_mm && grow(own, other, p, false)) {
+  while ((leaves(Tree::Portal) < portalTerminals || leaves(Tree::Hepatic) < hepaticTerminals) && reach_mm > 5.0) {
+    const Point p = low + extent.cwiseProduct(Point(random_.uniform(), random_.uniform(), random_.uniform()));
+    if (liver_mm_(p) > -4.5) continue;
+    const bool portal = leaves(Tree::Portal) * hepaticTerminals <= leaves(Tree::Hepatic) * portalTerminals;
+    const Tree tree = portal ? Tree::Portal : Tree::Hepatic;
+    if (own(tree).distance_mm(p) > reach_mm && grow(tree, p, false)) {
       misses = 0;
     } else if (++misses > 40) {
       reach_mm *= 0.95;
       misses = 0;
     }
   }
+}
 
+void Growth::curve() {
   for (;;) {
-    v.portal.curve();
-    v.hepatic.curve();
-    if (const int i = leaving(v.portal, liver_mm); i > 0) {
-      v.portal.prune(i);
-    } else if (const int j = leaving(v.hepatic, liver_mm); j > 0) {
-      v.hepatic.prune(j);
-    } else if (const auto c = conflict(v)) {
-      (c->first == 0 ? v.portal : v.hepatic).prune(c->second);
+    trees_.portal.curve();
+    trees_.hepatic.curve();
+    if (const int i = leaving(trees_.portal, liver_mm_); i > 0) {
+      trees_.portal.prune(i);
+    } else if (const int j = leaving(trees_.hepatic, liver_mm_); j > 0) {
+      trees_.hepatic.prune(j);
+    } else if (const auto c = conflict(trees_)) {
+      (c->first == 0 ? trees_.portal : trees_.hepatic).prune(c->second);
     } else {
-      return v;
+      return;
     }
   }
 }
@@ -148,7 +180,11 @@ LiverVessels growVessels(const Distance& liver_mm, const Point& low, const Point
                          const Point& hepaticConfluence, std::uint64_t seed) {
   // Where the main branches got into each other's way, or a trunk had to go, other main branches are tried.
   for (int attempt = 0; attempt < 40; ++attempt) {
-    LiverVessels v = growOnce(liver_mm, low, high, portalHilum, hepaticConfluence, seed, attempt);
+    Growth growth(liver_mm, portalHilum, hepaticConfluence, seed, attempt);
+    growth.mainBranches();
+    growth.terminals(low, high);
+    growth.curve();
+    const LiverVessels& v = growth.trees();
     if (10 * v.portal.leaves() >= 8 * portalTerminals && 10 * v.hepatic.leaves() >= 8 * hepaticTerminals) return v;
   }
   throw BadArgument("phantom: no room for two vein trees in the liver of seed " + std::to_string(seed));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <numeric>
+#include <optional>
 
 namespace glisson::phantom {
 namespace {
@@ -53,78 +54,108 @@ double VesselTree::distance_mm(const Point& p) const {
   return d;
 }
 
-bool VesselTree::add(const Point& terminal, const Allowed& allowed, bool toRoot) {
-  auto at = [&](int i) -> Node& { return nodes_[static_cast<std::size_t>(i)]; };
-  const double all = static_cast<double>(leaves() + 1);
-  auto radiusFor = [&](int count) { return rootRadius_mm_ * std::cbrt(static_cast<double>(count) / all); };
-  auto climb = [&](int from) {
-    for (int i = from; i >= 0; i = at(i).parent) ++at(i).leaves;
-  };
-  if (toRoot || nodes_.size() == 1) {
-    if (!allowed(nodes_.front().p_lps_mm, terminal, radiusFor(1))) return false;
-    Node leaf;
-    leaf.p_lps_mm = terminal;
-    leaf.parent = 0;
-    nodes_.push_back(leaf);
-    nodes_.front().children.push_back(static_cast<int>(nodes_.size()) - 1);
-    climb(static_cast<int>(nodes_.size()) - 1);
-    return true;
-  }
+double VesselTree::radiusOnceAdded_mm(int leavesBelow) const {
+  return rootRadius_mm_ * std::cbrt(static_cast<double>(leavesBelow) / static_cast<double>(leaves() + 1));
+}
 
+void VesselTree::countLeaf(int terminal) {
+  for (int i = terminal; i >= 0; i = at(i).parent) ++at(i).leaves;
+}
+
+bool VesselTree::joinRoot(const Point& terminal, const Allowed& allowed) {
+  if (!allowed(nodes_.front().p_lps_mm, terminal, radiusOnceAdded_mm(1))) return false;
+  Node leaf;
+  leaf.p_lps_mm = terminal;
+  leaf.parent = 0;
+  nodes_.push_back(leaf);
+  nodes_.front().children.push_back(static_cast<int>(nodes_.size()) - 1);
+  countLeaf(static_cast<int>(nodes_.size()) - 1);
+  return true;
+}
+
+std::vector<int> VesselTree::nearestSegments(const Point& p, std::size_t most) const {
   std::vector<int> near(nodes_.size() - 1);
   std::iota(near.begin(), near.end(), 1);
   std::vector<double> distance(nodes_.size());
   for (const int i : near)
-    distance[static_cast<std::size_t>(i)] = pointToSegment_mm(terminal, at(at(i).parent).p_lps_mm, at(i).p_lps_mm);
+    distance[static_cast<std::size_t>(i)] = pointToSegment_mm(p, at(at(i).parent).p_lps_mm, at(i).p_lps_mm);
   std::stable_sort(near.begin(), near.end(), [&](int a, int b) {
     return distance[static_cast<std::size_t>(a)] < distance[static_cast<std::size_t>(b)];
   });
-  near.resize(std::min<std::size_t>(near.size(), 14));
+  near.resize(std::min(near.size(), most));
+  return near;
+}
 
-  int best = -1;
-  Point bestPoint = Point::Zero();
-  double bestCost = 0.0;
-  for (const int i : near) {
-    const Point& parent = at(at(i).parent).p_lps_mm;
-    const Point& child = at(i).p_lps_mm;
-    const double rParent = radiusFor(at(i).leaves + 1);
-    const double rChild = radiusFor(at(i).leaves);
-    const double rNew = radiusFor(1);
-    const Point b = bifurcation({parent, child, terminal}, {rParent, rChild, rNew});
-    if ((b - parent).norm() < std::max(3.0, 1.2 * rParent) || (b - child).norm() < std::max(3.0, 1.2 * rChild) ||
-        (b - terminal).norm() < 4.0)
-      continue;
-    double cost = rParent * rParent * (b - parent).norm() + rChild * rChild * (b - child).norm() +
-                  rNew * rNew * (b - terminal).norm() - rChild * rChild * (child - parent).norm();
-    for (int k = at(i).parent; k > 0; k = at(k).parent) {  // the way to the root widens by one terminal's flow
-      const double now = radiusFor(at(k).leaves);
-      const double then = radiusFor(at(k).leaves + 1);
-      cost += (then * then - now * now) * (at(k).p_lps_mm - at(at(k).parent).p_lps_mm).norm();
-    }
-    if (best >= 0 && cost >= bestCost) continue;
-    if (!allowed(parent, b, rParent) || !allowed(b, child, rChild) || !allowed(b, terminal, rNew)) continue;
-    best = i;
-    bestPoint = b;
-    bestCost = cost;
+VesselTree::Fork VesselTree::forkOf(int segment, const Point& terminal) const {
+  const Point& parent = at(at(segment).parent).p_lps_mm;
+  const Point& child = at(segment).p_lps_mm;
+  Fork f;
+  f.segment = segment;
+  f.parentRadius_mm = radiusOnceAdded_mm(at(segment).leaves + 1);
+  f.childRadius_mm = radiusOnceAdded_mm(at(segment).leaves);
+  f.terminalRadius_mm = radiusOnceAdded_mm(1);
+  f.p_lps_mm = bifurcation({parent, child, terminal}, {f.parentRadius_mm, f.childRadius_mm, f.terminalRadius_mm});
+  return f;
+}
+
+bool VesselTree::hasRoom(const Fork& f, const Point& terminal) const {
+  const Point& parent = at(at(f.segment).parent).p_lps_mm;
+  const Point& child = at(f.segment).p_lps_mm;
+  return !((f.p_lps_mm - parent).norm() < std::max(3.0, 1.2 * f.parentRadius_mm) ||
+           (f.p_lps_mm - child).norm() < std::max(3.0, 1.2 * f.childRadius_mm) || (f.p_lps_mm - terminal).norm() < 4.0);
+}
+
+double VesselTree::costOf(const Fork& f, const Point& terminal) const {
+  const Point& parent = at(at(f.segment).parent).p_lps_mm;
+  const Point& child = at(f.segment).p_lps_mm;
+  const double rParent = f.parentRadius_mm, rChild = f.childRadius_mm, rNew = f.terminalRadius_mm;
+  double cost = rParent * rParent * (f.p_lps_mm - parent).norm() + rChild * rChild * (f.p_lps_mm - child).norm() +
+                rNew * rNew * (f.p_lps_mm - terminal).norm() - rChild * rChild * (child - parent).norm();
+  for (int k = at(f.segment).parent; k > 0; k = at(k).parent) {  // the way to the root widens by one terminal's flow
+    const double now = radiusOnceAdded_mm(at(k).leaves);
+    const double then = radiusOnceAdded_mm(at(k).leaves + 1);
+    cost += (then * then - now * now) * (at(k).p_lps_mm - at(at(k).parent).p_lps_mm).norm();
   }
-  if (best < 0) return false;
+  return cost;
+}
 
+void VesselTree::split(const Fork& chosen, const Point& terminal) {
   const int fork = static_cast<int>(nodes_.size());
   const int leaf = fork + 1;
-  const int parent = at(best).parent;
+  const int parent = at(chosen.segment).parent;
   Node f;
-  f.p_lps_mm = bestPoint;
+  f.p_lps_mm = chosen.p_lps_mm;
   f.parent = parent;
-  f.children = {best, leaf};
-  f.leaves = at(best).leaves;
+  f.children = {chosen.segment, leaf};
+  f.leaves = at(chosen.segment).leaves;
   Node l;
   l.p_lps_mm = terminal;
   l.parent = fork;
   nodes_.push_back(f);
   nodes_.push_back(l);
-  std::replace(at(parent).children.begin(), at(parent).children.end(), best, fork);
-  at(best).parent = fork;
-  climb(leaf);
+  std::replace(at(parent).children.begin(), at(parent).children.end(), chosen.segment, fork);
+  at(chosen.segment).parent = fork;
+  countLeaf(leaf);
+}
+
+bool VesselTree::add(const Point& terminal, const Allowed& allowed, bool toRoot) {
+  if (toRoot || nodes_.size() == 1) return joinRoot(terminal, allowed);
+  std::optional<Fork> best;
+  double bestCost = 0.0;
+  for (const int segment : nearestSegments(terminal, 14)) {
+    const Fork f = forkOf(segment, terminal);
+    if (!hasRoom(f, terminal)) continue;
+    const double cost = costOf(f, terminal);
+    if (best && cost >= bestCost) continue;
+    if (!allowed(at(at(segment).parent).p_lps_mm, f.p_lps_mm, f.parentRadius_mm) ||
+        !allowed(f.p_lps_mm, at(segment).p_lps_mm, f.childRadius_mm) ||
+        !allowed(f.p_lps_mm, terminal, f.terminalRadius_mm))
+      continue;
+    best = f;
+    bestCost = cost;
+  }
+  if (!best) return false;
+  split(*best, terminal);
   return true;
 }
 

@@ -44,6 +44,28 @@ class VesselTree {
   void prune(int node);
 
  private:
+  /// Where a new terminal would leave a segment, and the radii once it is there.
+  struct Fork {
+    int segment = 0;  ///< the node that it ends in
+    Point p_lps_mm = Point::Zero();
+    double parentRadius_mm = 0.0, childRadius_mm = 0.0, terminalRadius_mm = 0.0;
+  };
+
+  Node& at(int node) { return nodes_[static_cast<std::size_t>(node)]; }
+  const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
+  /// Of a segment with so many terminals below it, in a tree of one terminal more.
+  double radiusOnceAdded_mm(int leavesBelow) const;
+  /// One leaf more for a new terminal and every node above it.
+  void countLeaf(int terminal);
+  bool joinRoot(const Point& terminal, const Allowed& allowed);
+  /// Nodes in which the segments nearest to p end, nearest first.
+  std::vector<int> nearestSegments(const Point& p, std::size_t most) const;
+  Fork forkOf(int segment, const Point& terminal) const;
+  /// Whether the fork keeps away from the three places that it joins.
+  bool hasRoom(const Fork& fork, const Point& terminal) const;
+  /// Blood volume that the tree gains, over π.
+  double costOf(const Fork& fork, const Point& terminal) const;
+  void split(const Fork& fork, const Point& terminal);
   void recount();
   std::vector<Node> nodes_;
   double rootRadius_mm_;

@@ -72,24 +72,32 @@ Json sceneOf(const PhantomPatient& patient) {
   return j;
 }
 
-}  // namespace
+// What every series of one patient shares.
+struct Study {
+  explicit Study(const PhantomPatient& patient);
 
-void writePhantom(const PhantomPatient& patient, const std::filesystem::path& folder) {
+  std::string uid(const char* of) const { return dicom::uidFrom(root + " " + of); }
+
+  std::string root;  // what UIDs are made from
+  dicom::MrSeriesHeader header;
+};
+
+Study::Study(const PhantomPatient& patient) {
   char number[16];
   std::snprintf(number, sizeof number, "%03d", patient.number);
-  const std::string root = "glisson phantom " + std::to_string(patient.truth.seed) + " " + number;
+  root = "glisson phantom " + std::to_string(patient.truth.seed) + " " + number;
+  header.patientName = std::string("PHANTOM^") + number;
+  header.patientId = std::string("PHANTOM-") + number;
+  header.patientSex = "O";
+  header.studyUid = uid("study");
+  header.studyId = number;
+  header.studyDescription = "ABDOMEN MR ELASTOGRAPHY";
+  header.frameOfReferenceUid = uid("frame");
+}
 
-  dicom::MrSeriesHeader h;
-  h.patientName = std::string("PHANTOM^") + number;
-  h.patientId = std::string("PHANTOM-") + number;
-  h.patientSex = "O";
-  h.studyUid = dicom::uidFrom(root + " study");
-  h.studyId = number;
-  h.studyDescription = "ABDOMEN MR ELASTOGRAPHY";
-  h.frameOfReferenceUid = dicom::uidFrom(root + " frame");
-
-  dicom::MrSeriesHeader mri = h;
-  mri.seriesUid = dicom::uidFrom(root + " mri");
+dicom::MrSeriesHeader mriHeader(const Study& study) {
+  dicom::MrSeriesHeader mri = study.header;
+  mri.seriesUid = study.uid("mri");
   mri.seriesNumber = mriSeriesNumber;
   mri.seriesDescription = "Ax LAVA +C PORTAL VENOUS";
   mri.sequenceVariant = "SS\\SP\\SK";
@@ -102,46 +110,64 @@ void writePhantom(const PhantomPatient& patient, const std::filesystem::path& fo
   mri.flipAngle_deg = 12.0;
   mri.windowCenter = 430.0;
   mri.windowWidth = 860.0;
-  const dicom::WrittenSeries images = dicom::writeMrSeries(folder / "mri", mri, patient.mri);
+  return mri;
+}
 
-  // One acquisition, and the maps the scanner makes of it: series n gives n·100 + 1, + 2, + 5 and + 7.
-  auto map = [&](const char* name, int offset, const char* description, const char* derivation) {
-    dicom::MrSeriesHeader m = h;
-    m.seriesUid = dicom::uidFrom(root + " " + name);
-    m.seriesNumber = offset == 0 ? mreSeriesNumber : mreSeriesNumber * 100 + offset;
-    m.seriesDescription = description;
-    m.pulseSequence = "fgremre";
-    m.derivation = derivation;
-    if (offset != 0) m.imageType = {"DERIVED", "SECONDARY", "OTHER"};
-    return m;
+// One map of the acquisition: its number among them, and how it is shown.
+struct Map {
+  const char* name;
+  int offset;  // 0: the acquisition itself
+  const char* description;
+  const char* derivation;
+  double windowCenter = 0.0, windowWidth = 0.0;
+};
+
+// One acquisition, and the maps the scanner makes of it: series n gives n·100 + 1, + 2, + 5 and + 7.
+constexpr Map magnitudeMap{"magnitude", 0, "Ax MRE 60Hz", "", 200.0, 400.0};
+constexpr Map stiffnessMap{"stiffness", 1, "Ax MRE 60Hz Stiffness (Pa)", "Shear stiffness in Pa", 4000.0, 8000.0};
+constexpr Map waveMap{"wave",
+                      5,
+                      "Ax MRE 60Hz Wave",
+                      "Shear wave image in radians = pixel * pi / (WindowWidth / 2)",
+                      0.0,
+                      PhantomPatient::waveWindowWidth};
+constexpr Map confidenceMap{
+    "confidence", 7, "Ax MRE 60Hz Confidence", "Confidence of the shear stiffness, 0 to 999", 500.0, 1000.0};
+constexpr Map colourMap{"colour", 2, "Ax MRE 60Hz Colour Stiffness 0-8 kPa", "Colour picture of the shear stiffness"};
+
+dicom::MrSeriesHeader headerOf(const Study& study, const Map& map) {
+  dicom::MrSeriesHeader m = study.header;
+  m.seriesUid = study.uid(map.name);
+  m.seriesNumber = map.offset == 0 ? mreSeriesNumber : mreSeriesNumber * 100 + map.offset;
+  m.seriesDescription = map.description;
+  m.pulseSequence = "fgremre";
+  m.derivation = map.derivation;
+  if (map.offset != 0) m.imageType = {"DERIVED", "SECONDARY", "OTHER"};
+  if (map.windowWidth > 0.0) {
+    m.windowCenter = map.windowCenter;
+    m.windowWidth = map.windowWidth;
+  }
+  return m;
+}
+
+void writeElastogram(const Study& study, const PhantomPatient& patient, const std::filesystem::path& folder) {
+  const auto write = [&](const Map& map, const auto& volume) {
+    dicom::writeMrSeries(folder / map.name, headerOf(study, map), volume);
   };
-  const std::filesystem::path mre = folder / "mre";
-  dicom::MrSeriesHeader magnitude = map("magnitude", 0, "Ax MRE 60Hz", "");
-  magnitude.windowCenter = 200.0;
-  magnitude.windowWidth = 400.0;
-  dicom::writeMrSeries(mre / "magnitude", magnitude, patient.magnitude);
-  dicom::MrSeriesHeader stiffness = map("stiffness", 1, "Ax MRE 60Hz Stiffness (Pa)", "Shear stiffness in Pa");
-  stiffness.windowCenter = 4000.0;
-  stiffness.windowWidth = 8000.0;
-  dicom::writeMrSeries(mre / "stiffness", stiffness, patient.stiffness_Pa);
-  dicom::MrSeriesHeader wave =
-      map("wave", 5, "Ax MRE 60Hz Wave", "Shear wave image in radians = pixel * pi / (WindowWidth / 2)");
-  wave.windowCenter = 0.0;
-  wave.windowWidth = PhantomPatient::waveWindowWidth;
-  dicom::writeMrSeries(mre / "wave", wave, patient.wave);
-  dicom::MrSeriesHeader confidence =
-      map("confidence", 7, "Ax MRE 60Hz Confidence", "Confidence of the shear stiffness, 0 to 999");
-  confidence.windowCenter = 500.0;
-  confidence.windowWidth = 1000.0;
-  dicom::writeMrSeries(mre / "confidence", confidence, patient.confidence);
-  const dicom::MrSeriesHeader colour =
-      map("colour", 2, "Ax MRE 60Hz Colour Stiffness 0-8 kPa", "Colour picture of the shear stiffness");
-  dicom::writeMrColourSeries(mre / "colour", colour, patient.colour);
+  write(magnitudeMap, patient.magnitude);
+  write(stiffnessMap, patient.stiffness_Pa);
+  write(waveMap, patient.wave);
+  write(confidenceMap, patient.confidence);
+  dicom::writeMrColourSeries(folder / colourMap.name, headerOf(study, colourMap), patient.colour);
+}
 
+// The written MRI as the outlines name it.
+dicom::Series outlinedSeries(const dicom::MrSeriesHeader& mri, const dicom::WrittenSeries& images,
+                             const image::Grid& grid) {
   dicom::Series source;
   source.uid = mri.seriesUid;
-  source.studyUid = h.studyUid;
-  source.frameOfReferenceUid = h.frameOfReferenceUid;
+  source.studyUid = mri.studyUid;
+  source.frameOfReferenceUid = mri.frameOfReferenceUid;
   source.modality = "MR";
   source.description = mri.seriesDescription;
   source.number = mri.seriesNumber;
@@ -150,20 +176,34 @@ void writePhantom(const PhantomPatient& patient, const std::filesystem::path& fo
   source.files = images.files;
   source.sopInstanceUids = images.sopInstanceUids;
   source.sopClassUid = "1.2.840.10008.5.1.4.1.1.4";  // MR Image Storage
-  source.grid = patient.mri.grid;
+  source.grid = grid;
+  return source;
+}
+
+dicom::StructureSet outlines(const PhantomPatient& patient, const dicom::Series& source) {
   dicom::StructureSet set;
-  set.frameOfReferenceUid = h.frameOfReferenceUid;
-  set.referencedSeriesUid = mri.seriesUid;
+  set.frameOfReferenceUid = source.frameOfReferenceUid;
+  set.referencedSeriesUid = source.uid;
   dicom::Structure liver;
   liver.number = 1;
   liver.name = "liver";
   for (const roi::Polygon& p : patient.contours.polygons) {
-    const auto k = static_cast<std::size_t>(std::lround(patient.mri.grid.lpsToIndex(p.points_lps_mm.col(0)).z()));
-    liver.contours.push_back({p.points_lps_mm, images.sopInstanceUids.at(k)});
+    const auto k = static_cast<std::size_t>(std::lround(source.grid.lpsToIndex(p.points_lps_mm.col(0)).z()));
+    liver.contours.push_back({p.points_lps_mm, source.sopInstanceUids.at(k)});
   }
   set.structures.push_back(std::move(liver));
-  dicom::writeRtStruct(folder / "rtstruct.dcm", set, source, patient.truth.seed);
+  return set;
+}
 
+}  // namespace
+
+void writePhantom(const PhantomPatient& patient, const std::filesystem::path& folder) {
+  const Study study(patient);
+  const dicom::MrSeriesHeader mri = mriHeader(study);
+  const dicom::WrittenSeries images = dicom::writeMrSeries(folder / "mri", mri, patient.mri);
+  writeElastogram(study, patient, folder / "mre");
+  const dicom::Series source = outlinedSeries(mri, images, patient.mri.grid);
+  dicom::writeRtStruct(folder / "rtstruct.dcm", outlines(patient, source), source, patient.truth.seed);
   writeText(folder / "scene.json", sceneOf(patient).dump(2) + "\n");
   writeText(folder / "truth.json", truthOf(patient).dump(1) + "\n");
 }

@@ -131,12 +131,10 @@ std::shared_ptr<const retraction::SmoothBody> smoothBody(const Scene& scene, con
 retraction::Model buildModel(const Scene& scene, const Inputs& inputs, const image::Mask& cells) {
   const MaterialSpec& m = scene.material;
   switch (m.kind) {
-    case MaterialSpec::Kind::Uniform:
-      return uniformModel(scene, cells, m.value_kPa, m.quantity);
+    case MaterialSpec::Kind::Uniform: return uniformModel(scene, cells, m.value_kPa, m.quantity);
     case MaterialSpec::Kind::Atlas:
       return uniformModel(scene, cells, defaults::atlasShear.kPa(), StiffnessQuantity::Shear);
-    default:
-      break;
+    default: break;
   }
   if (!inputs.stiffness) throw BadArgument("buildModel: the inputs hold no stiffness map");
   const elastography::StiffnessMap& map = *inputs.stiffness;

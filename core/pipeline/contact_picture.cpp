@@ -10,11 +10,11 @@
 namespace glisson::pipeline::detail {
 namespace {
 
-constexpr double surface_mm = 2.5;  ///< edge of the cubes that the drawn surface is made on
+constexpr double surface_mm = 2.5;                 ///< edge of the cubes that the drawn surface is made on
 constexpr double reach_mm = 3.0, sigma_mm = 1.25;  ///< of a sample of contact; samples lie at most 1.5 mm apart
 
-/// Samples of a surface, to be asked at any place on it: means of those within 3 mm, weighted by area and a Gaussian; of
-/// the nearest where there is none.
+/// Samples of a surface, to be asked at any place on it: means of those within 3 mm, weighted by area and a Gaussian;
+/// of the nearest where there is none.
 class Samples {
  public:
   explicit Samples(const retraction::RigidContact& contact) : c_(contact) {
@@ -41,9 +41,7 @@ class Samples {
   }
 
  private:
-  static Eigen::Vector3i cubeOf(const Eigen::Vector3d& p_mm) {
-    return (p_mm / reach_mm).array().floor().cast<int>();
-  }
+  static Eigen::Vector3i cubeOf(const Eigen::Vector3d& p_mm) { return (p_mm / reach_mm).array().floor().cast<int>(); }
   static std::int64_t keyOf(const Eigen::Vector3i& cube) {
     const auto part = [](int v) { return static_cast<std::int64_t>(v + (1 << 20)); };
     return (part(cube.x()) << 42) | (part(cube.y()) << 21) | part(cube.z());

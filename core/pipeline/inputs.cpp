@@ -7,6 +7,7 @@
 #include "image/io.h"
 #include "pipeline/breath_hold.h"
 #include "pipeline/detail/needs.h"
+#include "pipeline/detail/step_id.h"
 #include "pipeline/region_file.h"
 #include "pipeline/sources.h"
 
@@ -24,13 +25,13 @@ void take(Inputs& in, const Loaded& part) {
   in.diagnostics.add(part.diagnostics);
 }
 
-/// Notes the time since the last note under the name of a step.
+/// Notes the time since the last note as that of a step.
 class StepClock {
  public:
   explicit StepClock(Inputs& in) : in_(in) {}
-  void note(const std::string& step) {
+  void note(detail::StepId step) {
     const auto now = std::chrono::steady_clock::now();
-    in_.seconds.emplace_back(step, std::chrono::duration<double>(now - last_).count());
+    in_.seconds.emplace_back(detail::nameOf(step), std::chrono::duration<double>(now - last_).count());
     last_ = now;
   }
 
@@ -45,13 +46,13 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
   // The region first: it says which images it was drawn on.
   progress.report(0.0, "reading the region of interest");
   LoadedRoi roi = loadRoi(g.roi, g.roiName, g.label, progress.part(0.0, 0.1));
-  clock.note("read-roi");
+  clock.note(detail::StepId::ReadRoi);
   progress.report(0.1, "reading the MRI");
   AnatomicalImage mri = loadImage(g.mri, progress.part(0.1, 0.4), g.roles, roi.names);
   if (mri.volume.grid.size.z() < 2)
     throw BadInput("the MRI has a single slice: statistics are possible, a 3-D model is not; give the whole series");
   take(in, mri);
-  clock.note("read-mri");
+  clock.note(detail::StepId::ReadMri);
   progress.report(0.4, "placing the region of interest");
   checkOutlines(roi, mri.volume.grid);
   take(in, roi);
@@ -76,7 +77,7 @@ void loadPatient(const Scene& scene, const detail::Needs& needs, Inputs& in, con
     for (const std::string& warning : in.roiOnMre->warnings)
       if (warning != completed && std::find(in.warnings.begin(), in.warnings.end(), warning) == in.warnings.end())
         in.warnings.push_back(warning);
-    clock.note("read-mre");
+    clock.note(detail::StepId::ReadMre);
   }
   const Diagnostics doubts = doubtsAboutOutline(roi, &mri, mre ? &*mre : nullptr);
   in.diagnostics.add(doubts);
@@ -96,20 +97,20 @@ Inputs loadInputs(const Scene& scene, const Progress& progress) {
   StepClock clock(in);
   if (g.kind == GeometrySpec::Kind::Mask) {
     in.liver = readRegion(g.file, g.label, surfaceCell_mm(g), in.warnings, &in.diagnostics);
-    clock.note("read-roi");
+    clock.note(detail::StepId::ReadRoi);
     if (needs.mriValues && !g.background.empty()) {
       AnatomicalImage background = loadImage(g.background, progress);
       take(in, background);
       in.mri = std::move(background.volume);
     }
-    if (needs.mriValues) clock.note("read-mri");
+    if (needs.mriValues) clock.note(detail::StepId::ReadMri);
   }
   if (needs.map) {
     LoadedStiffness map =
         loadStiffness(scene.material.map, {scene.material.quantity, scene.material.unit, {}}, progress);
     take(in, map);
     in.stiffness = std::move(map.map);
-    clock.note("read-map");
+    clock.note(detail::StepId::ReadMap);
   }
   progress.report(1.0, "inputs read");
   return in;

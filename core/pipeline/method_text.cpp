@@ -33,9 +33,12 @@ std::string supportInWords(const retraction::SupportSpec& s) {
   const std::string where = regionInWords(s.region);
   if (s.kind == retraction::SupportSpec::Kind::Spring)
     return where + " rests on springs of " + number(s.stiffness_kPa_per_mm) + " kPa/mm (Winkler foundation" +
-           (s.unilateral ? ", pressing only" + (s.tangential > 0 ? ", " + number(s.tangential) + " of it along the surface"
-                                                               : std::string()) + ")"
-            : s.normalOnly ? ", along the surface normal only)" : ")");
+           (s.unilateral
+                ? ", pressing only" +
+                      (s.tangential > 0 ? ", " + number(s.tangential) + " of it along the surface" : std::string()) +
+                      ")"
+            : s.normalOnly ? ", along the surface normal only)"
+                           : ")");
   if (s.kind == retraction::SupportSpec::Kind::Ligament)
     return where + " hangs on the " + retraction::nameOf(s.ligament.name) + " ligament (fibres of " +
            number(s.ligament.length_mm) + " mm" +
@@ -138,7 +141,7 @@ std::string modelInWords(const Scene& scene, const RunResult& r) {
     case retraction::ModelKind::FemHex:
       t = std::string("Voxel finite elements (hexahedra, ") +
           (r.primary.contact                                ? "trilinear with mean dilatation, cut by the surface"
-           : s.model.element == mechanics::HexElement::H8     ? "trilinear"
+           : s.model.element == mechanics::HexElement::H8   ? "trilinear"
            : s.model.element == mechanics::HexElement::BBar ? "trilinear with mean dilatation"
                                                             : "with nine incompatible modes") +
           ")";
@@ -153,17 +156,19 @@ std::string modelInWords(const Scene& scene, const RunResult& r) {
   }
   t += ", " + std::to_string(r.primary.dofs) + " degrees of freedom, " + nameOf(r.primary.kinematics) + " kinematics. ";
   if (r.primary.contact && r.primary.kinematics != retraction::Kinematics::Linear)
-    t += s.law == mechanics::SolidLaw::Logarithmic ? "Material: compressible neo-Hookean, U(J) = -µ ln J + λ/2 (ln J)². "
-                                                   : "Material: compressible neo-Hookean, U(J) polynomial in J. ";
+    t += s.law == mechanics::SolidLaw::Logarithmic
+             ? "Material: compressible neo-Hookean, U(J) = -µ ln J + λ/2 (ln J)². "
+             : "Material: compressible neo-Hookean, U(J) polynomial in J. ";
   if (r.primary.contact && s.capsule)
-    t += "Glisson's capsule of " + number(s.capsule->tension_N_per_mm) + " N/mm (Young's modulus times thickness; Umale " +
-         "et al. 2011) " +
+    t += "Glisson's capsule of " + number(s.capsule->tension_N_per_mm) +
+         " N/mm (Young's modulus times thickness; Umale " + "et al. 2011) " +
          (s.capsule->form == retraction::CapsuleForm::Membrane ? "as a membrane on the surface. "
                                                                : "in the cells below the surface. ");
   if (s.analysis.dynamic)
-    t += std::string("Time scheme ") + mechanics::nameOf(s.analysis.scheme) + " with steps of " + number(s.analysis.h_ms) + " ms to " + number(s.analysis.end_s) +
-         " s, Rayleigh damping " + number(s.analysis.rayleigh[0]) + " 1/s and " + number(s.analysis.rayleigh[1]) +
-         " s (" + std::to_string(r.primary.steps) + " steps taken). ";
+    t += std::string("Time scheme ") + mechanics::nameOf(s.analysis.scheme) + " with steps of " +
+         number(s.analysis.h_ms) + " ms to " + number(s.analysis.end_s) + " s, Rayleigh damping " +
+         number(s.analysis.rayleigh[0]) + " 1/s and " + number(s.analysis.rayleigh[1]) + " s (" +
+         std::to_string(r.primary.steps) + " steps taken). ";
   else
     t += "Static equilibrium. ";
   return t + "Solver: " + r.primary.solver.kind + ", " + std::to_string(r.primary.solver.iterations) +

@@ -1,6 +1,7 @@
 #include "pipeline/models.h"
 
 #include "anatomy/vessels.h"
+#include "base/error.h"
 #include "pipeline/detail/build_model.h"
 
 namespace glisson::pipeline {
@@ -27,6 +28,15 @@ Models buildModels(const Scene& scene, bool vessels, const Progress& progress, c
   }
   progress.report(1.0, "models");
   return m;
+}
+
+const std::vector<Eigen::Vector3d>& followedPoints(const Scene& scene, const Models& models) {
+  const std::vector<Eigen::Vector3d>& points =
+      models.landmarks_mm.empty() ? scene.outputs.probes_mm : models.landmarks_mm;
+  if (points.empty())
+    throw BadInput(
+        "nothing to follow: the scene has neither vessels (a patient's MRI) nor probes; add {\"probe\": ...}");
+  return points;
 }
 
 }  // namespace glisson::pipeline

@@ -25,4 +25,8 @@ struct Models {
 /// inputs: already loaded (the workstation), else read. Throws BadInput, Cancelled.
 Models buildModels(const Scene& scene, bool vessels, const Progress& progress = {}, const Inputs* inputs = nullptr);
 
+/// What follows the tool in a live retraction: the vessels, or the scene's probes where there are none; LPS mm. Throws
+/// BadInput where the scene has neither.
+const std::vector<Eigen::Vector3d>& followedPoints(const Scene& scene, const Models& models);
+
 }  // namespace glisson::pipeline

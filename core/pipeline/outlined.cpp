@@ -119,12 +119,10 @@ const dicom::Series& seriesFor(const dicom::ScanResult& scan, SeriesRole role, c
   if (outlined == nullptr || own == nullptr || outlined == own) return taken;
   const dicom::Series* other =
       outlined->stiffness >= 0 ? &scan.series[static_cast<std::size_t>(outlined->stiffness)] : nullptr;
-  const bool usable =
-      other != nullptr && (!other->error || (mayBeUneven && !other->unevenSlices_mm.empty()));
+  const bool usable = other != nullptr && (!other->error || (mayBeUneven && !other->unevenSlices_mm.empty()));
   if (byHand || !usable) {
-    said.add(DiagnosticCode::OutlinedSeriesNotTaken, {{"named", numberOf(scan, named)},
-                                                      {"taken", static_cast<std::int64_t>(taken.number)},
-                                                      {"what", what}});
+    said.add(DiagnosticCode::OutlinedSeriesNotTaken,
+             {{"named", numberOf(scan, named)}, {"taken", static_cast<std::int64_t>(taken.number)}, {"what", what}});
     return taken;
   }
   said.add(DiagnosticCode::SeriesByOutline, {{"series", static_cast<std::int64_t>(other->number)}, {"what", what}});
@@ -155,8 +153,8 @@ Diagnostics planesOffTheirImages(const OutlineNames& names, const std::vector<co
     const image::Grid& grid = series.grid;
     const auto slice = static_cast<std::size_t>(found->second.slice);
     const double slack_mm = std::min(0.5, 0.5 * grid.spacing_mm.z());
-    const double height_mm = series.unevenSlices_mm.empty() ? found->second.slice * grid.spacing_mm.z()
-                                                            : series.unevenSlices_mm[slice];
+    const double height_mm =
+        series.unevenSlices_mm.empty() ? found->second.slice * grid.spacing_mm.z() : series.unevenSlices_mm[slice];
     const double away_mm = std::abs(grid.lpsToIndex(plane.point_lps_mm).z() * grid.spacing_mm.z() - height_mm);
     if (away_mm <= slack_mm) continue;
     ++count;

@@ -29,8 +29,8 @@ int outlinedSeries(const dicom::ScanResult& scan, const OutlineNames& names, Dia
 
 /// The series to take as the image (role anatomical) or the elastogram (role stiffness): set by hand; else what was
 /// outlined (of an elastogram: the stiffness of the acquisition that was outlined); else the best of that role, or the
-/// only series there is. mayBeUneven: one whose slices lie unevenly can be taken as what was outlined. Throws BadInput as
-/// dicom::findRole does.
+/// only series there is. mayBeUneven: one whose slices lie unevenly can be taken as what was outlined. Throws BadInput
+/// as dicom::findRole does.
 const dicom::Series& seriesFor(const dicom::ScanResult& scan, dicom::SeriesRole role, const OutlineNames& names,
                                Diagnostics& said, bool mayBeUneven = false);
 

@@ -42,14 +42,10 @@ std::optional<Eigen::Vector3d> mostMisplacedVessel(const RunResult& r) {
 /// What the scene's own stiffness is called beside, or without, the atlas.
 std::string stiffnessName(const Scene& scene, bool compared) {
   switch (scene.material.kind) {
-    case MaterialSpec::Kind::Mre:
-      return "MRE";
-    case MaterialSpec::Kind::Map:
-      return "map";
-    case MaterialSpec::Kind::Uniform:
-      return "uniform";
-    case MaterialSpec::Kind::Atlas:
-      break;
+    case MaterialSpec::Kind::Mre: return "MRE";
+    case MaterialSpec::Kind::Map: return "map";
+    case MaterialSpec::Kind::Uniform: return "uniform";
+    case MaterialSpec::Kind::Atlas: break;
   }
   return compared ? "own" : "atlas";
 }
@@ -131,7 +127,8 @@ void Writer::displacementFields(const RunResult& r) {
 }
 
 void Writer::vessels(const Scene&, const RunResult& r, const anatomy::VesselModel& vessels) {
-  std::vector<std::string> head = {"landmark", "x_mm", "y_mm", "z_mm", "radius_mm", "ux_mm", "uy_mm", "uz_mm", "difference_mm"};
+  std::vector<std::string> head = {"landmark", "x_mm",  "y_mm",  "z_mm",         "radius_mm",
+                                   "ux_mm",    "uy_mm", "uz_mm", "difference_mm"};
   const bool spread = r.uncertainty && r.uncertainty->known;
   if (spread) head.insert(head.end(), spreadColumns.begin(), spreadColumns.end());
   report::Csv csv(head);
@@ -140,8 +137,9 @@ void Writer::vessels(const Scene&, const RunResult& r, const anatomy::VesselMode
     const Eigen::Vector3d& p = vessels.centreline_lps_mm[i];
     const double d = r.difference && i < r.difference->vessel_mm.size() ? r.difference->vessel_mm[i] : std::nan("");
     auto cell = [](double v) { return std::isfinite(v) ? number(v, 7) : std::string(); };
-    std::vector<std::string> row = {std::to_string(i), cell(p.x()), cell(p.y()), cell(p.z()), cell(vessels.radius_mm[i]),
-                                    cell(u[i].x()), cell(u[i].y()), cell(u[i].z()), cell(d)};
+    std::vector<std::string> row = {
+        std::to_string(i), cell(p.x()),    cell(p.y()),    cell(p.z()), cell(vessels.radius_mm[i]),
+        cell(u[i].x()),    cell(u[i].y()), cell(u[i].z()), cell(d)};
     if (spread)
       for (const double v : spreadOf(*r.uncertainty, i)) row.push_back(cell(v));
     csv.row(row);

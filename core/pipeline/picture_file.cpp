@@ -122,10 +122,10 @@ Json sizesOf(const anatomy::TriangleMesh& m) {
 }
 
 Json toJson(const render::BarContact& c) {
-  return {{"travel_mm", c.travel_mm},   {"force_N", c.force_N},
-          {"resultant_N", c.resultant_N},
-          {"area_mm2", c.area_mm2},     {"capacity_N", c.capacity_N},
-          {"capacity_exceeded", c.capacityExceeded}, {"slipped", c.slipped}, {"path", c.path}};
+  return {{"travel_mm", c.travel_mm},     {"force_N", c.force_N},
+          {"resultant_N", c.resultant_N}, {"area_mm2", c.area_mm2},
+          {"capacity_N", c.capacity_N},   {"capacity_exceeded", c.capacityExceeded},
+          {"slipped", c.slipped},         {"path", c.path}};
 }
 
 Json toJson(const render::RigidBar& bar) {

@@ -31,7 +31,7 @@ struct PictureOptions {
   render::Palette palette = render::Palette::RedBlue;
   std::vector<int> slices{};           ///< k of the MRI grid; empty: largest difference, vessels, retractor
   std::vector<NamedCamera> cameras{};  ///< empty: oblique and anterior
-  int width = 1600, height = 1200;   ///< of 3-D pictures; pixels per voxel of slices grow with the width
+  int width = 1600, height = 1200;     ///< of 3-D pictures; pixels per voxel of slices grow with the width
   double dpi = 300.0;
 };
 
@@ -45,12 +45,13 @@ std::vector<std::filesystem::path> drawSlices(const PictureData& data, const Pic
 /// bears. stiffness: what the first one is called.
 render::XyChart forceChart(const render::RigidBar& bar, const std::string& stiffness = "MRE");
 
-/// The chart of a rigid bar, whether the scene may be drawn or not: a bar that slips shows there how far it came. Nothing
-/// without such a bar.
+/// The chart of a rigid bar, whether the scene may be drawn or not: a bar that slips shows there how far it came.
+/// Nothing without such a bar.
 std::vector<std::filesystem::path> drawCharts(const PictureData& data, const PictureOptions& options,
                                               const std::filesystem::path& folder);
 
-/// The same as drawSlices in 3-D: both answers, and the contact pressure of a rigid bar on each. Throws RenderUnavailable.
+/// The same as drawSlices in 3-D: both answers, and the contact pressure of a rigid bar on each. Throws
+/// RenderUnavailable.
 std::vector<std::filesystem::path> draw3D(const PictureData& data, const PictureOptions& options,
                                           const std::filesystem::path& folder);
 

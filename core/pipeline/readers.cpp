@@ -59,74 +59,121 @@ image::Mask onGrid(const LoadedRoi& roi, const image::Grid& grid) {
   return roi::rasterise(*roi.contours, grid);
 }
 
+/// What one case's readers have outlined, and what it was drawn on.
+struct LoadedCase {
+  std::string name;
+  std::vector<LoadedRoi> rois;
+  std::optional<LoadedStiffness> mre;
+  std::optional<AnatomicalImage> mri;
+
+  const LoadedStiffness* stiffness() const { return mre ? &*mre : nullptr; }
+  const AnatomicalImage* image() const { return mri ? &*mri : nullptr; }
+  std::optional<image::Grid> mriGrid() const { return mri ? std::optional(mri->volume.grid) : std::nullopt; }
+};
+
+/// Adds the warnings of one case, each once.
+class CaseWarnings {
+ public:
+  CaseWarnings(std::string name, std::vector<std::string>& warnings) : name_(std::move(name)), warnings_(warnings) {}
+  void add(const std::vector<std::string>& said) {
+    for (const std::string& text : said)
+      if (const std::string warning = name_ + ": " + text;
+          std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end())
+        warnings_.push_back(warning);
+  }
+
+ private:
+  std::string name_;
+  std::vector<std::string>& warnings_;
+};
+
+LoadedCase loadCase(const ReaderRequest& request, const std::string& name, bool many, const Progress& progress) {
+  LoadedCase c;
+  c.name = name;
+  for (const auto& reader : request.readers)
+    c.rois.push_back(loadRoi(ofCase(reader, name, many), request.name, request.label, progress));
+  MapMeaning meaning = request.meaning;
+  meaning.outlined = c.rois.front().names;
+  meaning.mayBeUneven = true;
+  if (!request.mre.empty()) c.mre = loadStiffness(ofCase(request.mre, name, many), meaning, progress);
+  if (!request.mri.empty()) c.mri = loadImage(ofCase(request.mri, name, many), progress, {}, c.rois.front().names);
+  return c;
+}
+
+/// Throws BadInput where the parts do not belong together.
+void checkCase(const LoadedCase& c, bool overrideChecks, CaseWarnings& tell) {
+  tell.add(checkReaders(c.rois, overrideChecks));
+  if (c.mre) tell.add(c.mre->warnings);
+  if (c.mri) tell.add(c.mri->diagnostics.texts(Severity::Warning));
+  if (c.mri && c.mre) tell.add(checkTogether(*c.mri, *c.mre, overrideChecks));
+  for (const LoadedRoi& roi : c.rois) {
+    tell.add(roi.warnings);
+    tell.add(checkRoi(roi, c.image(), c.stiffness(), overrideChecks));
+    tell.add(doubtsAboutOutline(roi, c.image(), c.stiffness()).texts());
+  }
+}
+
+/// The voxels that the readers are compared on: those of the first mask, else the image's, else the elastogram's.
+/// Throws BadInput where there are none.
+image::Grid gridOf(const LoadedCase& c) {
+  for (const LoadedRoi& roi : c.rois)
+    if (roi.mask) return roi.mask->grid;
+  if (c.mri) return c.mri->volume.grid;
+  if (!c.mre)
+    throw BadInput("outlines alone have no voxels to compare: give the image they were drawn on, or the elastogram");
+  if (!c.mre->map.unevenSlices_mm.empty())
+    throw BadInput(
+        "the elastogram's slices lie unevenly, so that outlines have no volume on it: give the image that they "
+        "were drawn on (--mri)");
+  return c.mre->map.values_kPa.grid;
+}
+
+/// Each reader's mask, and its volume.
+std::vector<image::Mask> masksOf(LoadedCase& c, ReadersOfCase& result, CaseWarnings& tell) {
+  const image::Grid grid = gridOf(c);
+  const std::optional<image::Grid> mriGrid = c.mriGrid();
+  std::vector<image::Mask> masks;
+  for (LoadedRoi& roi : c.rois) {
+    if (roi.contours) tell.add(roi::outlineDoubts(*roi.contours, grid, mriGrid.has_value()).texts(Severity::Warning));
+    if (mriGrid)
+      if (const auto completed = completeOutlines(roi, *mriGrid)) tell.add({*completed});
+    masks.push_back(onGrid(roi, grid));
+    const auto& values = masks.back().values;
+    const auto voxels = std::count_if(values.begin(), values.end(), [](auto v) { return v != 0; });
+    result.volume_mL.push_back(1e-3 * grid.voxelVolume_mm3() * static_cast<double>(voxels));
+  }
+  return masks;
+}
+
+/// What each reader's outline measures, and how far the others' are from the first.
+void compareStiffness(const LoadedCase& c, ReadersOfCase& result, CaseWarnings& tell) {
+  std::vector<elastography::Measurement> measurements;
+  for (const LoadedRoi& roi : c.rois) {
+    const elastography::MappedRoi mapped = mapRoi(roi, c.mriGrid(), c.mre->map);
+    tell.add(mapped.warnings);
+    const elastography::Measurement& m = measurements.emplace_back(elastography::measure(c.mre->map, mapped.mask));
+    tell.add(m.warnings);
+    result.stiffness_kPa.push_back(m.pooled.mean_kPa);
+    result.stiffnessMean_kPa.push_back(m.interval.mean);
+  }
+  for (std::size_t r = 1; r < measurements.size(); ++r)
+    result.intervals[r - 1].stiffnessDifference_kPa = detail::stiffnessDifference(measurements[0], measurements[r]);
+}
+
 ReadersOfCase compareCase(const ReaderRequest& request, const std::string& name, bool many,
                           std::vector<std::string>& warnings, const Progress& progress) {
   ReadersOfCase result;
   result.name = name;
-  std::vector<LoadedRoi> rois;
-  for (const auto& reader : request.readers)
-    rois.push_back(loadRoi(ofCase(reader, name, many), request.name, request.label, progress));
-  std::optional<LoadedStiffness> mre;
-  MapMeaning meaning = request.meaning;
-  meaning.outlined = rois.front().names;
-  meaning.mayBeUneven = true;
-  if (!request.mre.empty()) mre = loadStiffness(ofCase(request.mre, name, many), meaning, progress);
-  std::optional<image::Grid> grid, mriGrid;
-  std::optional<AnatomicalImage> mri;
-  if (!request.mri.empty()) mri = loadImage(ofCase(request.mri, name, many), progress, {}, rois.front().names);
-  if (mri) mriGrid = mri->volume.grid;
-  const auto tell = [&](const std::vector<std::string>& said) {
-    for (const std::string& text : said)
-      if (const std::string warning = name + ": " + text;
-          std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
-        warnings.push_back(warning);
-  };
-  tell(checkReaders(rois, request.overrideChecks));
-  if (mre) tell(mre->warnings);
-  if (mri) tell(mri->diagnostics.texts(Severity::Warning));
-  if (mri && mre) tell(checkTogether(*mri, *mre, request.overrideChecks));
-  for (const LoadedRoi& roi : rois) {
-    tell(roi.warnings);
-    tell(checkRoi(roi, mri ? &*mri : nullptr, mre ? &*mre : nullptr, request.overrideChecks));
-    tell(doubtsAboutOutline(roi, mri ? &*mri : nullptr, mre ? &*mre : nullptr).texts());
-  }
-  for (const LoadedRoi& roi : rois)
-    if (roi.mask && !grid) grid = roi.mask->grid;
-  if (!grid) grid = mriGrid;
-  if (!grid && mre && !mre->map.unevenSlices_mm.empty())
-    throw BadInput("the elastogram's slices lie unevenly, so that outlines have no volume on it: give the image that they "
-                   "were drawn on (--mri)");
-  if (!grid && mre) grid = mre->map.values_kPa.grid;
-  if (!grid)
-    throw BadInput("outlines alone have no voxels to compare: give the image they were drawn on, or the elastogram");
-  std::vector<image::Mask> masks;
-  for (LoadedRoi& roi : rois) {
-    if (roi.contours) tell(roi::outlineDoubts(*roi.contours, *grid, mriGrid.has_value()).texts(Severity::Warning));
-    if (mriGrid)
-      if (const auto completed = completeOutlines(roi, *mriGrid)) tell({*completed});
-    masks.push_back(onGrid(roi, *grid));
-    result.volume_mL.push_back(1e-3 * grid->voxelVolume_mm3() *
-                               static_cast<double>(std::count_if(masks.back().values.begin(), masks.back().values.end(),
-                                                                 [](auto v) { return v != 0; })));
-  }
+  CaseWarnings tell(name, warnings);
+  LoadedCase c = loadCase(request, name, many, progress);
+  checkCase(c, request.overrideChecks, tell);
+  const std::vector<image::Mask> masks = masksOf(c, result, tell);
   for (std::size_t r = 1; r < masks.size(); ++r) {
     result.agreement.push_back(
         roi::agreement(masks[0], masks[r], request.outlines ? roi::Border::Outline : roi::Border::Surface));
     detail::addOverlapIntervals(masks[0], masks[r], result.intervals.emplace_back());
   }
-  if (!mre) return result;
-  std::vector<elastography::Measurement> measurements;
-  for (const LoadedRoi& roi : rois) {
-    const elastography::MappedRoi mapped = mapRoi(roi, mriGrid, mre->map);
-    tell(mapped.warnings);
-    const elastography::Measurement& measured =
-        measurements.emplace_back(elastography::measure(mre->map, mapped.mask));
-    tell(measured.warnings);
-    result.stiffness_kPa.push_back(measured.pooled.mean_kPa);
-    result.stiffnessMean_kPa.push_back(measured.interval.mean);
-  }
-  for (std::size_t r = 1; r < measurements.size(); ++r)
-    result.intervals[r - 1].stiffnessDifference_kPa = detail::stiffnessDifference(measurements[0], measurements[r]);
+  if (c.mre) compareStiffness(c, result, tell);
   return result;
 }
 

@@ -33,12 +33,12 @@ struct ReaderIntervals {
 };
 
 struct ReadersOfCase {
-  std::string name;                       ///< of the files, without extension
-  std::vector<double> volume_mL;          ///< of each reader
-  std::vector<double> stiffness_kPa;      ///< mean of each reader; empty without an elastogram
+  std::string name;                                       ///< of the files, without extension
+  std::vector<double> volume_mL;                          ///< of each reader
+  std::vector<double> stiffness_kPa;                      ///< mean of each reader; empty without an elastogram
   std::vector<elastography::Interval> stiffnessMean_kPa;  ///< the same means with their intervals
-  std::vector<roi::Agreement> agreement;  ///< of each further reader with the first
-  std::vector<ReaderIntervals> intervals;  ///< of each agreement
+  std::vector<roi::Agreement> agreement;                  ///< of each further reader with the first
+  std::vector<ReaderIntervals> intervals;                 ///< of each agreement
 };
 
 struct ReaderStudy {

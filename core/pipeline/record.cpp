@@ -137,6 +137,110 @@ Json parametersToJson(const Scene& scene) {
   return j;
 }
 
+Json planToJson(const std::vector<PlanStep>& plan) {
+  Json j = Json::array();
+  for (const PlanStep& s : plan)
+    j.push_back(
+        {{"step", s.step}, {"needed", s.needed}, {"why", s.why}, {"seconds", s.seconds}, {"peak_MB", s.peak_MB}});
+  return j;
+}
+
+Json modelToJson(const Scene& scene, const RunResult& r) {
+  Json j = {{"dofs", r.primary.dofs},
+            {"cells", r.model.cells},
+            {"volume_mL", r.model.volume_mL},
+            {"mass_kg", r.model.mass_kg}};
+  if (scene.setup.model.kind == retraction::ModelKind::Meshfree) {
+    j["frames"] = r.primary.frames;
+    j["frames_asked"] = scene.setup.model.meshfree.frames;
+    j["notes"] = r.primary.notes;
+  }
+  return j;
+}
+
+Json discretisationToJson(const retraction::DiscretisationError& e) {
+  Json j = {{"known", e.known}, {"note", e.note}};
+  if (!e.known) return j;
+  j["mean_mm"] = e.mean_mm;
+  j["p95_mm"] = e.p95_mm;
+  j["max_mm"] = e.max_mm;
+  addPlaces(e, j);
+  if (e.difference) {
+    j["difference"] = {{"mean_mm", e.difference->mean_mm}};
+    addPlaces(*e.difference, j["difference"]);
+  }
+  return j;
+}
+
+/// The one answer, how far its cells let it be believed, where the bar lies, and the other answers.
+void addAnswers(const Scene& scene, const RunResult& r, Json& j) {
+  j.update(resultToJson(r.primary, scene));
+  if (r.discretisation) j["discretisation_error"] = discretisationToJson(*r.discretisation);
+  if (r.placed) j["pose"] = poseToJson(*r.placed);
+  if (r.atlas) j["atlas"] = resultToJson(*r.atlas, scene);
+  if (const std::string advice = adviceOn(scene, r.primary); !advice.empty()) j["advice"] = advice;
+  if (r.linear) j["kinematics_compared"] = kinematicsToJson(r);
+}
+
+/// The difference of the two answers; null where the scene asks for one and there is none.
+void addComparison(const Scene& scene, const RunResult& r, Json& j) {
+  if (!r.difference) {
+    if (scene.compare) j["difference"] = nullptr;
+    return;
+  }
+  const comparison::Difference& d = *r.difference;
+  Json& out = j["difference"] = differenceToJson(d);
+  out["significance"] = wordOf(significanceOf(r));
+  if (!d.vessel_mm.empty())
+    out["vessels"] = {{"landmarks", d.vessel_mm.size()},
+                      {"mean_mm", d.vesselMean_mm},
+                      {"p95_mm", d.vesselP95_mm},
+                      {"max_mm", d.vesselMax_mm},
+                      {"fraction_beyond_5mm", d.vesselFractionBeyond}};
+  if (r.uncertainty) addIntervals(*r.uncertainty, out);
+}
+
+Json stiffnessToJson(const elastography::Measurement& m) {
+  const elastography::Statistics& s = m.pooled;
+  return {{"quantity", m.quantity == StiffnessQuantity::Shear ? "shear" : "youngs"},
+          {"n", s.n},
+          {"n_before_mask", s.n_before_mask},
+          {"mean_kPa", s.mean_kPa},
+          {"median_kPa", s.median_kPa},
+          {"sd_kPa", s.sd_kPa}};
+}
+
+void addMessages(const RunResult& r, Json& j) {
+  j["warnings"] = r.warnings;
+  for (const std::string& text : r.diagnostics.texts(Severity::Warning)) j["warnings"].push_back(text);
+  j["diagnostics"] = Json::array();
+  for (const Diagnostic& d : r.diagnostics) j["diagnostics"].push_back(diagnosticToJson(d));
+}
+
+/// What the answers were made from and with.
+void addProvenance(const Scene& scene, const RunResult& r, Json& j) {
+  j["kinematics"] = {
+      {"asked", nameOf(scene.setup.kinematics)}, {"used", nameOf(r.primary.kinematics)}, {"why", r.kinematicsWhy}};
+  j["parameters"] = parametersToJson(scene);
+  j["constants"] = {{"gravity_m_s2", defaults::gravity_m_s2},
+                    {"clinically_significant_mm", defaults::clinicallySignificant.mm()},
+                    {"confidence_threshold", defaults::confidenceThreshold}};
+  j["inputs"] = Json::object();
+  for (const auto& [name, digest] : inputDigests(scene)) j["inputs"][name] = {{"sha256", digest}};
+  j["seed"] = scene.setup.seed;
+}
+
+/// A record without what differs from run to run of one program: times, memory and what was written.
+Json lasting(Json j) {
+  for (const char* key : {"plan", "version", "commit"}) j.erase(key);
+  const auto forgetSeconds = [](Json& of) {
+    if (of.contains("solver")) of["solver"].erase("seconds");
+  };
+  forgetSeconds(j);
+  if (j.contains("atlas")) forgetSeconds(j["atlas"]);
+  return j;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> inputDigests(const Scene& scene) {
@@ -206,82 +310,15 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
   j["note"] = researchUseOnly;
   j["version"] = version();
   j["commit"] = buildCommit();
-  j["plan"] = Json::array();
-  for (const PlanStep& s : r.plan)
-    j["plan"].push_back(
-        {{"step", s.step}, {"needed", s.needed}, {"why", s.why}, {"seconds", s.seconds}, {"peak_MB", s.peak_MB}});
-  j["model"] = {{"dofs", r.primary.dofs},
-                {"cells", r.model.cells},
-                {"volume_mL", r.model.volume_mL},
-                {"mass_kg", r.model.mass_kg}};
-  if (scene.setup.model.kind == retraction::ModelKind::Meshfree) {
-    j["model"]["frames"] = r.primary.frames;
-    j["model"]["frames_asked"] = scene.setup.model.meshfree.frames;
-    j["model"]["notes"] = r.primary.notes;
-  }
-  j.update(resultToJson(r.primary, scene));
-  if (r.discretisation) {
-    const retraction::DiscretisationError& e = *r.discretisation;
-    j["discretisation_error"] = {{"known", e.known}, {"note", e.note}};
-    if (e.known) {
-      j["discretisation_error"]["mean_mm"] = e.mean_mm;
-      j["discretisation_error"]["p95_mm"] = e.p95_mm;
-      j["discretisation_error"]["max_mm"] = e.max_mm;
-      addPlaces(e, j["discretisation_error"]);
-      if (e.difference) {
-        j["discretisation_error"]["difference"] = {{"mean_mm", e.difference->mean_mm}};
-        addPlaces(*e.difference, j["discretisation_error"]["difference"]);
-      }
-    }
-  }
-  if (r.placed) j["pose"] = poseToJson(*r.placed);
-  if (r.atlas) j["atlas"] = resultToJson(*r.atlas, scene);
-  if (const std::string advice = adviceOn(scene, r.primary); !advice.empty()) j["advice"] = advice;
-  if (r.linear) j["kinematics_compared"] = kinematicsToJson(r);
-  if (r.difference) {
-    const comparison::Difference& d = *r.difference;
-    j["difference"] = differenceToJson(d);
-    j["difference"]["significance"] = wordOf(significanceOf(r));
-    if (!d.vessel_mm.empty())
-      j["difference"]["vessels"] = {{"landmarks", d.vessel_mm.size()},
-                                    {"mean_mm", d.vesselMean_mm},
-                                    {"p95_mm", d.vesselP95_mm},
-                                    {"max_mm", d.vesselMax_mm},
-                                    {"fraction_beyond_5mm", d.vesselFractionBeyond}};
-  }
-  if (r.difference && r.uncertainty) addIntervals(*r.uncertainty, j["difference"]);
-  if (scene.compare && !r.difference) j["difference"] = nullptr;
+  j["plan"] = planToJson(r.plan);
+  j["model"] = modelToJson(scene, r);
+  addAnswers(scene, r, j);
+  addComparison(scene, r, j);
   if (r.uncertainty) j["uncertainty"] = uncertaintyToJson(*r.uncertainty);
-  if (r.stiffness) {
-    const elastography::Statistics& s = r.stiffness->pooled;
-    j["stiffness"] = {{"quantity", r.stiffness->quantity == StiffnessQuantity::Shear ? "shear" : "youngs"},
-                      {"n", s.n},
-                      {"n_before_mask", s.n_before_mask},
-                      {"mean_kPa", s.mean_kPa},
-                      {"median_kPa", s.median_kPa},
-                      {"sd_kPa", s.sd_kPa}};
-  }
-  j["warnings"] = r.warnings;
-  for (const std::string& text : r.diagnostics.texts(Severity::Warning)) j["warnings"].push_back(text);
-  j["diagnostics"] = Json::array();
-  for (const Diagnostic& d : r.diagnostics) j["diagnostics"].push_back(diagnosticToJson(d));
-  j["kinematics"] = {{"asked", nameOf(scene.setup.kinematics)}, {"used", nameOf(r.primary.kinematics)}, {"why", r.kinematicsWhy}};
-  j["parameters"] = parametersToJson(scene);
-  j["constants"] = {{"gravity_m_s2", defaults::gravity_m_s2},
-                    {"clinically_significant_mm", defaults::clinicallySignificant.mm()},
-                    {"confidence_threshold", defaults::confidenceThreshold}};
-  j["inputs"] = Json::object();
-  for (const auto& [name, digest] : inputDigests(scene)) j["inputs"][name] = {{"sha256", digest}};
-  j["seed"] = scene.setup.seed;
-  // All that is above but what differs from run to run of one program: times, memory and what was written.
-  Json lasting = j;
-  for (const char* key : {"plan", "version", "commit"}) lasting.erase(key);
-  const auto forgetSeconds = [](Json& of) {
-    if (of.contains("solver")) of["solver"].erase("seconds");
-  };
-  forgetSeconds(lasting);
-  if (lasting.contains("atlas")) forgetSeconds(lasting["atlas"]);
-  const std::string text = lasting.dump();
+  if (r.stiffness) j["stiffness"] = stiffnessToJson(*r.stiffness);
+  addMessages(r, j);
+  addProvenance(scene, r, j);
+  const std::string text = lasting(j).dump();
   j["results_sha256"] = sha256(text.data(), text.size());
   j["threads"] = threadCount();
   nameFiles(j, r.files, palette);

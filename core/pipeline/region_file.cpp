@@ -14,7 +14,8 @@
 namespace glisson::pipeline {
 namespace {
 
-/// No liver, nor a lobe of one that is worth a model, is smaller or larger: the unit of the coordinates is then another.
+/// No liver, nor a lobe of one that is worth a model, is smaller or larger: the unit of the coordinates is then
+/// another.
 constexpr double leastLiver_mL = 20.0, mostLiver_mL = 10'000.0;
 
 }  // namespace

@@ -21,8 +21,9 @@ std::string severalLabels(const std::filesystem::path& path);
 
 /// The voxels of a region. A mask keeps its grid; label picks a value of a label map (0 = any). A closed surface, or
 /// the outside of a volume mesh, is filled on a grid along the patient axes with cells of cell_mm (absent: 256 along
-/// its longest side); coordinates are LPS mm. Appends to warnings what the user should know, and what of it there is as data to diagnostics (may be null). Throws BadInput where the
-/// file cannot be read, or the surface is open or smaller than 1 mL (its coordinates are then hardly millimetres).
+/// its longest side); coordinates are LPS mm. Appends to warnings what the user should know, and what of it there is as
+/// data to diagnostics (may be null). Throws BadInput where the file cannot be read, or the surface is open or smaller
+/// than 1 mL (its coordinates are then hardly millimetres).
 image::Mask readRegion(const std::filesystem::path& path, int label, std::optional<Eigen::Vector3d> cell_mm,
                        std::vector<std::string>& warnings, Diagnostics* diagnostics = nullptr);
 

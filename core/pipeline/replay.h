@@ -32,8 +32,9 @@ struct ReplayResult {
 /// The record of a run that is named by its record or by the folder it lies in.
 std::filesystem::path recordOf(const std::filesystem::path& run);
 
-/// Outputs that lie beside a run record and are not those it was written with, by name: another run has written into the
-/// folder, or somebody has changed them. Files that are not there are not named. Throws BadInput where it is no record.
+/// Outputs that lie beside a run record and are not those it was written with, by name: another run has written into
+/// the folder, or somebody has changed them. Files that are not there are not named. Throws BadInput where it is no
+/// record.
 std::vector<std::string> filesOfAnotherRun(const std::filesystem::path& record);
 
 /// Runs the scene of a run record (or of the folder that holds it) again and compares every output by its digest.

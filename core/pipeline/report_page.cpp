@@ -31,14 +31,14 @@ using Rows = std::vector<std::pair<std::string, std::string>>;
 /// What the bar and the liver of one stiffness do to each other.
 void barRows(const std::string& who, const retraction::RigidContact& c, Rows& rows) {
   rows.emplace_back("Bar, " + who, std::string(c.answered() ? "" : "is no answer; its last state: ") + "travels " +
-                                       number(c.travel_mm, 3) + " mm, bears " +
-                                       number(c.force_N.dot(c.hoist), 3) + " N along the hoist (resultant " +
-                                       number(c.force_N.norm(), 3) + " N) on " + number(c.area_mm2, 3) + " mm² (" +
-                                       number(c.footprint_mm2, 3) + " mm² seen along the hoist)");
+                                       number(c.travel_mm, 3) + " mm, bears " + number(c.force_N.dot(c.hoist), 3) +
+                                       " N along the hoist (resultant " + number(c.force_N.norm(), 3) + " N) on " +
+                                       number(c.area_mm2, 3) + " mm² (" + number(c.footprint_mm2, 3) +
+                                       " mm² seen along the hoist)");
   rows.emplace_back("Largest contact pressure, " + who, number(c.pressureMax_kPa, 3) + " kPa");
   if (c.slipped())
-    rows.emplace_back("Capacity, " + who, number(c.capacity_N, 3) + " N after " +
-                                              number(retraction::travelAtCapacity(c), 3) + " mm: the bar slips");
+    rows.emplace_back("Capacity, " + who,
+                      number(c.capacity_N, 3) + " N after " + number(c.capacityAt_mm, 3) + " mm: the bar slips");
   else if (c.capacityExceeded)
     rows.emplace_back("Capacity, " + who, number(c.capacity_N, 3) + " N, met on the way");
 }
@@ -46,6 +46,11 @@ void barRows(const std::string& who, const retraction::RigidContact& c, Rows& ro
 /// What the scene's own stiffness is called beside the textbook's.
 std::string ownIn(const Scene& scene) {
   return scene.material.kind == MaterialSpec::Kind::Mre ? "measured" : "own";
+}
+
+/// What the body is called, in the middle of a sentence.
+const char* bodyOf(const Scene& scene) {
+  return scene.geometry.kind == GeometrySpec::Kind::Box ? "body" : "liver";
 }
 
 const char* wordsOf(Significance s) {
@@ -62,11 +67,10 @@ void results(Page& page, const Scene& scene, const RunResult& r) {
     if (d.code == DiagnosticCode::DifferenceWithheld) rows.emplace_back("Difference", "withheld: " + d.text());
   if (r.difference) {
     const comparison::Difference& d = *r.difference;
-    rows.emplace_back("Difference over the liver, mean", number(d.mean_mm) + " mm");
-    rows.emplace_back("95 % of the liver below", number(d.p95_mm) + " mm");
+    rows.emplace_back(std::string("Difference over the ") + bodyOf(scene) + ", mean", number(d.mean_mm) + " mm");
+    rows.emplace_back(std::string("95 % of the ") + bodyOf(scene) + " below", number(d.p95_mm) + " mm");
     rows.emplace_back("Largest", number(d.max_mm) + " mm");
-    rows.emplace_back("At the retractor",
-                      number(d.at_retractor_mm) + " mm" + wordsOf(significanceOf(r)));
+    rows.emplace_back("At the retractor", number(d.at_retractor_mm) + " mm" + wordsOf(significanceOf(r)));
     if (r.discretisation && r.discretisation->difference && r.discretisation->difference->at_retractor_mm)
       rows.emplace_back("At the retractor, error from the size of the cells",
                         "about " + number(*r.discretisation->difference->at_retractor_mm) + " mm");
@@ -74,8 +78,8 @@ void results(Page& page, const Scene& scene, const RunResult& r) {
       rows.emplace_back("Travel of the bar, " + ownWord + " less textbook", number(*d.travel_mm) + " mm");
       rows.emplace_back("Force on the bar at equal lift (" + number(d.equal_lift->travel_mm, 3) + " mm)",
                         number(d.equal_lift->force_N, 3) + " N " + ownWord + ", " +
-                            number(d.equal_lift->other_force_N, 3) +
-                            " N textbook" + (d.equal_lift->alongPath ? " (along the path, on its coarse cells)" : ""));
+                            number(d.equal_lift->other_force_N, 3) + " N textbook" +
+                            (d.equal_lift->alongPath ? " (along the path, brought to the answers)" : ""));
     }
     if (!d.vessel_mm.empty()) {
       rows.emplace_back("Vessel landmarks, mean", number(d.vesselMean_mm) + " mm");
@@ -131,8 +135,8 @@ void trust(Page& page, const Scene& scene, const RunResult& r) {
     if (e.known) {
       const auto mm = [](double v) { return number(v, 3) + " mm"; };
       const auto there = [&](const std::optional<double>& v) { return v ? mm(*v) : std::string("–"); };
-      std::vector<std::vector<std::string>> rows = {
-          {"of a displacement", mm(e.mean_mm), mm(e.p95_mm), mm(e.max_mm), there(e.at_retractor_mm), there(e.vessels_mm)}};
+      std::vector<std::vector<std::string>> rows = {{"of a displacement", mm(e.mean_mm), mm(e.p95_mm), mm(e.max_mm),
+                                                     there(e.at_retractor_mm), there(e.vessels_mm)}};
       if (e.difference)
         rows.push_back({"of the difference MRE against atlas", mm(e.difference->mean_mm), "–", "–",
                         there(e.difference->at_retractor_mm), there(e.difference->vessels_mm)});
@@ -194,20 +198,21 @@ void kinematics(Page& page, const RunResult& r) {
 }
 
 /// Names the colours of the palette.
-std::string captionOf(const std::string& name, render::Palette palette, const std::string& own, bool compared) {
+std::string captionOf(const std::string& name, render::Palette palette, const Scene& scene, bool compared) {
+  const std::string own = ownIn(scene), body = bodyOf(scene);
   const bool usual = palette == render::Palette::RedBlue;
   const std::string textbook = usual ? "red" : "orange", both = usual ? "purple" : "white";
   if (name == "force-travel.png")
-    return "Force of the bar on the liver against its travel, " + own + (compared ? " and textbook" : "") +
+    return "Force of the bar on the " + body + " against its travel, " + own + (compared ? " and textbook" : "") +
            " stiffness, with the force asked for and the capacity of the place where it was met";
   if (name.rfind("contact-pressure", 0) == 0)
-    return std::string("Contact pressure on the retracted liver, seen from behind and below through the bar: ") +
+    return "Contact pressure on the retracted " + body + ", seen from behind and below through the bar: " +
            (name.rfind("contact-pressure-atlas", 0) == 0 ? "textbook" : own) + " stiffness";
   if (name == "difference-map.png") return "Distance between the two predictions, mm";
   if (name.rfind("overlay-3d", 0) == 0)
     return compared ? "Vessels where the " + own +
                           " stiffness puts them (blue) and where the textbook stiffness does (" + textbook + ")"
-                    : "Liver and vessels where the " + own + " stiffness puts them";
+                    : "Body and vessels where the " + own + " stiffness puts them";
   const char* where = name == "overlay-vessels.png"     ? "Slice of the most misplaced vessel"
                       : name == "overlay-retractor.png" ? "Slice of the retractor"
                       : compared                        ? "Slice of the largest difference"
@@ -221,7 +226,8 @@ std::string captionOf(const std::string& name, render::Palette palette, const st
 
 void Writer::report(const Scene& scene, const RunResult& r,
                     const std::vector<std::pair<std::string, std::string>>& inputs, render::Palette palette) {
-  Page page(r.difference ? "Liver retraction, " + ownIn(scene) + " against textbook stiffness"
+  Page page(r.difference ? std::string(bodyOf(scene) == std::string("liver") ? "Liver retraction, " : "Retraction, ") +
+                               ownIn(scene) + " against textbook stiffness"
                          : std::string("Deformation under load"));
   results(page, scene, r);
   if (r.uncertainty) howSure(*r.uncertainty, page);
@@ -232,7 +238,7 @@ void Writer::report(const Scene& scene, const RunResult& r,
   for (const auto& f : r.files)
     if (f.extension() == ".png")
       page.picture(f, "Figure " + std::to_string(++figure) + ". " +
-                          captionOf(f.filename().string(), palette, ownIn(scene), r.atlas.has_value()));
+                          captionOf(f.filename().string(), palette, scene, r.atlas.has_value()));
   if (figure == 0) page.paragraph("There is none: what did not converge, or is no deformation, is not drawn.");
   page.heading("Method");
   for (const std::string& paragraph : methodText(scene, r)) page.paragraph(paragraph);

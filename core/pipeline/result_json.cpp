@@ -44,7 +44,7 @@ Json contactToJson(const retraction::RigidContact& c) {
   for (const auto& step : c.path) path.push_back({step[0], step[1]});
   return {{"travel_mm", c.travel_mm},
           {"capacity_N", c.capacityExceeded ? Json(c.capacity_N) : Json(nullptr)},
-          {"capacity_travel_mm", c.capacityExceeded ? Json(retraction::travelAtCapacity(c)) : Json(nullptr)},
+          {"capacity_travel_mm", c.capacityExceeded ? Json(c.capacityAt_mm) : Json(nullptr)},
           {"slipped", c.slipped()},
           {"force_N", vectorToJson(c.force_N)},
           {"force_along_hoist_N", c.force_N.dot(c.hoist)},

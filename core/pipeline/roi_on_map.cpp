@@ -92,8 +92,8 @@ elastography::MappedRoi mapOnSlices(const LoadedRoi& roi, const std::optional<im
     slice.values_kPa.grid.origin_lps_mm += map.unevenSlices_mm[k] * stack.direction.col(2);
     try {
       elastography::MappedRoi one = mapRoi(roi, mriGrid, slice);
-      std::ranges::copy(one.mask.values, all.mask.values.begin() + static_cast<std::ptrdiff_t>(
-                                                                       stack.linear(0, 0, static_cast<int>(k))));
+      std::ranges::copy(one.mask.values,
+                        all.mask.values.begin() + static_cast<std::ptrdiff_t>(stack.linear(0, 0, static_cast<int>(k))));
       all.coverage += one.coverage;
       all.coincidentSlices += one.coincidentSlices;
       all.sampledSlices += one.sampledSlices;

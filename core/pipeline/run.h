@@ -43,16 +43,16 @@ struct RunResult {
   std::optional<retraction::DiscretisationError> discretisation;  ///< of primary
   std::optional<comparison::Difference> difference;
   std::optional<uncertainty::Uncertainty> uncertainty;  ///< where it is asked for and both runs are answers
-  std::optional<LinearBeside> linear;                  ///< where a report of large deformation is asked for
-  std::vector<Eigen::Vector3d> landmarks_mm;           ///< vessel centrelines at rest, LPS
-  std::optional<elastography::Measurement> stiffness;  ///< over the region of interest, where MRE is used
-  std::optional<render::RetractionScene> picture;      ///< what the overlays draw, where they are asked for
-  std::vector<std::filesystem::path> files;            ///< everything written, run.json first
+  std::optional<LinearBeside> linear;                   ///< where a report of large deformation is asked for
+  std::vector<Eigen::Vector3d> landmarks_mm;            ///< vessel centrelines at rest, LPS
+  std::optional<elastography::Measurement> stiffness;   ///< over the region of interest, where MRE is used
+  std::optional<render::RetractionScene> picture;       ///< what the overlays draw, where they are asked for
+  std::vector<std::filesystem::path> files;             ///< everything written, run.json first
   std::vector<std::string> warnings;
   Diagnostics diagnostics;
   std::optional<retraction::PlacedBar> placed;  ///< where a rigid bar lies
-  std::string kinematicsWhy;  ///< why these kinematics were used
-  std::string json;  ///< the run record, as in contract.md
+  std::string kinematicsWhy;                    ///< why these kinematics were used
+  std::string json;                             ///< the run record, as in contract.md
 };
 
 /// On which side of the clinical line the difference at the retractor lies; open where the estimated error of the cells

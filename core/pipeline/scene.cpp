@@ -131,8 +131,7 @@ MaterialSpec readMaterial(JsonObject& scene, Setup& setup, const std::filesystem
 std::optional<retraction::Capsule> readCapsule(JsonObject& scene, bool byDefault) {
   retraction::Capsule capsule;
   if (!scene.has("capsule")) return byDefault ? std::optional(capsule) : std::nullopt;
-  if (scene.raw("capsule").is_boolean())
-    return scene.boolean("capsule", false) ? std::optional(capsule) : std::nullopt;
+  if (scene.raw("capsule").is_boolean()) return scene.boolean("capsule", false) ? std::optional(capsule) : std::nullopt;
   JsonObject o = scene.object("capsule");
   capsule.tension_N_per_mm = positive(o, "tension_N_per_mm", o.number("tension_N_per_mm", capsule.tension_N_per_mm));
   if (o.word("form", {"cells", "membrane"}, "cells") == "membrane") capsule.form = retraction::CapsuleForm::Membrane;
@@ -158,7 +157,8 @@ CompareSpec readCompare(JsonObject o) {
 std::optional<uncertainty::Options> readUncertainty(JsonObject& scene) {
   uncertainty::Options u;
   if (!scene.has("uncertainty")) return {};
-  if (scene.raw("uncertainty").is_boolean()) return scene.boolean("uncertainty", false) ? std::optional(u) : std::nullopt;
+  if (scene.raw("uncertainty").is_boolean())
+    return scene.boolean("uncertainty", false) ? std::optional(u) : std::nullopt;
   JsonObject o = scene.object("uncertainty");
   uncertainty::Spreads& s = u.spreads;
   const auto spread = [&](const char* key, double& value, double unit, double most) {
@@ -295,8 +295,9 @@ Scene parseScene(const std::string& text, const std::filesystem::path& folder, c
   }
   s.named = namedIn(document.root);
   s.capsuleAsked = o.has("capsule");
-  s.setup.capsule = readCapsule(o, s.geometry.kind == GeometrySpec::Kind::Patient   ? retractor
-                                   : s.geometry.kind == GeometrySpec::Kind::Mask && found);
+  s.setup.capsule = readCapsule(o, s.geometry.kind == GeometrySpec::Kind::Patient
+                                       ? retractor
+                                       : s.geometry.kind == GeometrySpec::Kind::Mask && found);
   if (!s.capsuleAsked && !retraction::wantsRigidBar(s.setup)) s.setup.capsule.reset();
   if (o.has("compare")) s.compare = readCompare(o.object("compare"));
   s.uncertainty = readUncertainty(o);

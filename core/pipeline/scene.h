@@ -24,13 +24,13 @@ struct GeometrySpec {
   int label = 0;                                      ///< Mask; 0 = any non-zero
   std::filesystem::path mri, mre, roi;                ///< Patient: DICOM folder or file, volume, contours
   bool rigidRegistration = false;  ///< Patient: elastogram laid over the MRI by its magnitude images (breath-hold)
-  std::string roiName;                                ///< Patient: structure to take; empty = found by name
-  dicom::RoleOverrides roles;                         ///< Patient: of series, set by hand
+  std::string roiName;             ///< Patient: structure to take; empty = found by name
+  dicom::RoleOverrides roles;      ///< Patient: of series, set by hand
   std::optional<StiffnessQuantity>
       mreQuantity;  ///< Patient: what the elastogram is; empty = what it says, else the shear modulus
-  std::optional<std::string> mreUnit;                 ///< Patient: its unit, where it does not say so itself
-  std::optional<double> mreConfidenceScale;           ///< Patient: stored value of full confidence, as mreUnit
-  bool overrideChecks = false;                        ///< Patient: other patient, day or frame of reference is meant
+  std::optional<std::string> mreUnit;        ///< Patient: its unit, where it does not say so itself
+  std::optional<double> mreConfidenceScale;  ///< Patient: stored value of full confidence, as mreUnit
+  bool overrideChecks = false;               ///< Patient: other patient, day or frame of reference is meant
 };
 
 /// Where the stiffness comes from.

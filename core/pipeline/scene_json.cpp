@@ -57,20 +57,14 @@ Json toJson(const MaterialSpec& m, const retraction::Setup& setup, const std::fi
   Json j;
   const bool youngs = m.quantity == StiffnessQuantity::Youngs;
   switch (m.kind) {
-    case MaterialSpec::Kind::Uniform:
-      j[youngs ? "youngs_kPa" : "shear_kPa"] = m.value_kPa;
-      break;
+    case MaterialSpec::Kind::Uniform: j[youngs ? "youngs_kPa" : "shear_kPa"] = m.value_kPa; break;
     case MaterialSpec::Kind::Map:
       j["map"] = pathText(m.map, folder);
       j["quantity"] = youngs ? "youngs" : "shear";
       j["unit"] = m.unit;
       break;
-    case MaterialSpec::Kind::Mre:
-      j["source"] = "mre";
-      break;
-    case MaterialSpec::Kind::Atlas:
-      j["source"] = "atlas";
-      break;
+    case MaterialSpec::Kind::Mre: j["source"] = "mre"; break;
+    case MaterialSpec::Kind::Atlas: j["source"] = "atlas"; break;
   }
   j["poisson"] = setup.poisson;
   j["density_kg_m3"] = setup.density.kgPerM3();
@@ -258,9 +252,10 @@ std::string toJson(const Scene& scene) {
   j["kinematics"] = nameOf(s.kinematics);
   // Where nothing would use it, a capsule that nobody asked for stays a default.
   if (scene.capsuleAsked || bar)
-    j["capsule"] = s.capsule ? Json{{"tension_N_per_mm", s.capsule->tension_N_per_mm},
-                                    {"form", s.capsule->form == retraction::CapsuleForm::Membrane ? "membrane" : "cells"}}
-                             : Json(false);
+    j["capsule"] = s.capsule
+                       ? Json{{"tension_N_per_mm", s.capsule->tension_N_per_mm},
+                              {"form", s.capsule->form == retraction::CapsuleForm::Membrane ? "membrane" : "cells"}}
+                       : Json(false);
   j["analysis"] = toJson(s.analysis);
   j["solver"] = solverToJson(scene, !bar && s.kinematics != retraction::Kinematics::Hyperelastic);
   if (scene.compare)

@@ -212,7 +212,8 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
       throw BadInput("'" + path.filename().string() +
                      "' is a bare map: say what it holds, quantity shear or youngs (--quantity) and unit Pa, kPa or "
                      "<factor>kPa (--unit)");
-    out.map = elastography::makeStiffnessMap(image::readVolume(path, &out.diagnostics), *meaning.quantity, *meaning.unit);
+    out.map =
+        elastography::makeStiffnessMap(image::readVolume(path, &out.diagnostics), *meaning.quantity, *meaning.unit);
     append(out.warnings, out.diagnostics.texts(Severity::Warning));
     for (const auto& [which, role] : meaning.roles) out.rolesNotFound.push_back(which);
     return out;
@@ -224,7 +225,8 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
     throw BadInput("no image series was found in '" + path.filename().string() + "'" +
                    (scan->skipped.empty() ? "" : ": " + scan->skipped.front().reason));
   Diagnostics said;
-  const dicom::Series& series = seriesFor(*scan, dicom::SeriesRole::Stiffness, meaning.outlined, said, meaning.mayBeUneven);
+  const dicom::Series& series =
+      seriesFor(*scan, dicom::SeriesRole::Stiffness, meaning.outlined, said, meaning.mayBeUneven);
   const dicom::Series stack = meaning.mayBeUneven ? dicom::asStack(series) : series;
   const bool outlined = said.contains(DiagnosticCode::SeriesByOutline);
   out.map = readStiffness(stack, meaning, said, progress.part(0.4, 0.8));
@@ -258,12 +260,14 @@ LoadedStiffness loadStiffness(const std::filesystem::path& path, const MapMeanin
 }
 
 void checkRolesFound(const dicom::RoleOverrides& roles, const std::vector<std::vector<std::string>>& notFound) {
-  for (const auto& [which, role] : roles)
+  for (const auto& role : roles) {
+    const std::string& which = role.first;
     if (std::all_of(notFound.begin(), notFound.end(), [&which](const std::vector<std::string>& list) {
           return std::find(list.begin(), list.end(), which) != list.end();
         }))
       throw BadInput("no series has the UID or number '" + which.substr(0, 70) +
                      "' that a role was given for; list them with: glisson-cli scan");
+  }
 }
 
 LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, int label, const Progress& progress) {
@@ -317,7 +321,8 @@ LoadedRoi loadRoi(const std::filesystem::path& path, const std::string& name, in
 namespace {
 
 /// Where the named images are those of a series in one folder, and the named series is another one in the other folder.
-void tellContradiction(const OutlineNames& names, const std::vector<const dicom::ScanResult*>& scans, Diagnostics& said) {
+void tellContradiction(const OutlineNames& names, const std::vector<const dicom::ScanResult*>& scans,
+                       Diagnostics& said) {
   OutlineNames images = names, series = names;
   images.seriesUid.clear();
   series.planes.clear();

@@ -29,10 +29,9 @@ struct Plausible {
 void tellImplausible(const char* what, double value, const char* unit, Plausible range, const char* usually,
                      Diagnostics& said) {
   if (value >= range.least && value <= range.most) return;
-  said.add(DiagnosticCode::ValueImplausible, {{"what", std::string(what)},
-                                              {"value", value},
-                                              {"unit", std::string(unit)},
-                                              {"usually", std::string(usually)}});
+  said.add(
+      DiagnosticCode::ValueImplausible,
+      {{"what", std::string(what)}, {"value", value}, {"unit", std::string(unit)}, {"usually", std::string(usually)}});
 }
 
 /// Numbers that can be computed with, and are most likely mistyped or in another unit. A box may be of any material, an
@@ -56,7 +55,8 @@ void tellOfImplausible(const Scene& scene, Diagnostics& said) {
     tellImplausible("the bar's diameter", bar->diameter_mm, "mm", {3, 40}, "retractors have (about 10 mm)", said);
     tellImplausible("the bar's length", bar->length_mm, "mm", {10, 200}, "retractors have (about 80 mm)", said);
     if (bar->force_N)
-      tellImplausible("the bar's force", *bar->force_N, "N", {0.1, 100}, "retracts a liver (its weight is some 15 N)", said);
+      tellImplausible("the bar's force", *bar->force_N, "N", {0.1, 100}, "retracts a liver (its weight is some 15 N)",
+                      said);
     if (bar->travel_mm)
       tellImplausible("the bar's travel", std::abs(*bar->travel_mm), "mm", {0.1, 150}, "a liver is moved by", said);
   }
@@ -116,6 +116,7 @@ std::string whyKinematics(const Scene& scene, const retraction::Result& r) {
   if (r.contact)
     return "a rigid bar is followed in large deformation: what linear theory would miss is known only once that answer "
            "is there, and then it is the better one";
+  if (retraction::inLargeDeformation(scene.setup)) return "supports that act one way only are beyond linear theory";
   if (r.kinematics == retraction::Kinematics::Hyperelastic)
     return "linear theory misses 0.2 mm or more, or strains leave it";
   if (r.linearGap && retraction::kinematicsValid(r)) return "linear theory misses less than 0.2 mm";
@@ -175,17 +176,12 @@ namespace {
 
 const char* inWords(mechanics::ContactOutcome outcome) {
   switch (outcome) {
-    case mechanics::ContactOutcome::Slips:
-      return "slips";
-    case mechanics::ContactOutcome::Folds:
-      return "folds";
-    case mechanics::ContactOutcome::Cuts:
-      return "cuts";
-    case mechanics::ContactOutcome::LoadsNotBorne:
-      return "loads not borne";
+    case mechanics::ContactOutcome::Slips: return "slips";
+    case mechanics::ContactOutcome::Folds: return "folds";
+    case mechanics::ContactOutcome::Cuts: return "cuts";
+    case mechanics::ContactOutcome::LoadsNotBorne: return "loads not borne";
     case mechanics::ContactOutcome::Reached:
-    case mechanics::ContactOutcome::Stopped:
-      break;
+    case mechanics::ContactOutcome::Stopped: break;
   }
   return "not converged";
 }
@@ -198,26 +194,31 @@ bool isAnswer(const retraction::Result& result) {
   return !result.contact || result.contact->smallestJ > 0;
 }
 
+namespace {
+
+/// Why a result is no answer, in a few words.
+std::string whyNone(const retraction::Result& r) {
+  if (!r.solver.converged()) return r.contact ? inWords(r.contact->outcome) : "not converged";
+  for (const Diagnostic& d : r.doubts)
+    if (d.code == DiagnosticCode::DisplacementBeyondBody) return "it moves the body by more than its size";
+  return "a cell is turned inside out";
+}
+
+}  // namespace
+
 void withhold(RunResult& r) {
   for (const bool atlas : {false, true}) {
     const retraction::Result& result = atlas ? *r.atlas : r.primary;
     if (isAnswer(result)) continue;
-    r.diagnostics.add(
-        DiagnosticCode::DifferenceWithheld,
-        {{"stiffness", wordOf(atlas)},
-         {"reason", std::string(result.contact && !result.solver.converged()         ? inWords(result.contact->outcome)
-                                : !result.solver.converged()                         ? "not converged"
-                                : result.contact && !(result.contact->smallestJ > 0) ? "a cell is turned inside out"
-                                                                                     : "no deformation")}});
+    r.diagnostics.add(DiagnosticCode::DifferenceWithheld, {{"stiffness", wordOf(atlas)}, {"reason", whyNone(result)}});
   }
 }
 
 void tellOfSignificance(RunResult& r) {
   if (significanceOf(r) != Significance::Open) return;
-  r.diagnostics.add(DiagnosticCode::SignificanceOpen,
-                    {{"at_retractor_mm", r.difference->at_retractor_mm},
-                     {"line_mm", defaults::clinicallySignificant.mm()},
-                     {"error_mm", *r.discretisation->difference->at_retractor_mm}});
+  r.diagnostics.add(DiagnosticCode::SignificanceOpen, {{"at_retractor_mm", r.difference->at_retractor_mm},
+                                                       {"line_mm", defaults::clinicallySignificant.mm()},
+                                                       {"error_mm", *r.discretisation->difference->at_retractor_mm}});
 }
 
 std::string adviceOn(const Scene& scene, const retraction::Result& r) {

@@ -53,6 +53,11 @@ Json uncertaintyToJson(const uncertainty::Uncertainty& u) {
                                          {"first_order_mm", c.first_order_mm}}
                                   : Json{{"found", false}});
   j["missed_share"] = u.missedShare ? Json(*u.missedShare) : Json(nullptr);
+  if (u.leverage)
+    j["stiffness_leverage"] = {{"figure", u.spread.headline ? "difference at the retractor" : "travel of the bar"},
+                               {"per_10_percent_mm", u.leverage->per10percent_mm},
+                               {"half_mL", u.leverage->half_mL},
+                               {"half_within_mm", u.leverage->halfWithin_mm}};
   j["fields"] = u.fields;
   j["solves"] = u.solves;
   j["iterations"] = u.iterations;
@@ -109,6 +114,13 @@ void howSure(const uncertainty::Uncertainty& u, report::Page& page) {
       {"Source (one standard deviation)", "of what", u.spread.headline ? "difference at the retractor" : "vessels",
        "place of the vessels", "travel of the bar"},
       rows);
+  if (u.leverage)
+    page.paragraph("Where the elastogram matters: half of what the liver's stiffness does to the " +
+                   std::string(u.spread.headline ? "difference at the retractor" : "travel of the bar") +
+                   " comes from " + number(u.leverage->half_mL, 2) + " mL of tissue, and half from within " +
+                   number(u.leverage->halfWithin_mm, 2) +
+                   " mm of the contact. A liver 10 % stiffer throughout moves it by " +
+                   number(u.leverage->per10percent_mm, 2) + " mm.");
   page.paragraph(
       "Intervals hold 95 %. The textbook stiffness is exact by definition: it is what one would have assumed. " +
       std::to_string(u.checks.size()) + " draws of all sources were solved in full; " +

@@ -50,13 +50,10 @@ std::vector<uncertainty::FurtherErrors> furtherErrorsOf(const RunResult& r) {
 
 bool shearKnown(const Scene& scene, const Inputs& inputs) {
   switch (scene.material.kind) {
-    case MaterialSpec::Kind::Uniform:
-      return scene.material.quantity == StiffnessQuantity::Shear;
+    case MaterialSpec::Kind::Uniform: return scene.material.quantity == StiffnessQuantity::Shear;
     case MaterialSpec::Kind::Map:
-    case MaterialSpec::Kind::Mre:
-      return inputs.stiffness && inputs.stiffness->quantity == StiffnessQuantity::Shear;
-    case MaterialSpec::Kind::Atlas:
-      break;
+    case MaterialSpec::Kind::Mre: return inputs.stiffness && inputs.stiffness->quantity == StiffnessQuantity::Shear;
+    case MaterialSpec::Kind::Atlas: break;
   }
   return true;
 }

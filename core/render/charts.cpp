@@ -1,7 +1,6 @@
 #include "render/charts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -9,6 +8,7 @@
 #include "base/error.h"
 #include "render/chart_frame.h"
 #include "render/colour_map.h"
+#include "render/detail/xy_chart.h"
 #include "render/font.h"
 #include "render/svg_painter.h"
 
@@ -17,9 +17,6 @@ namespace {
 
 using namespace colours;
 
-/// Told apart by colour-blind readers (Okabe and Ito), black first.
-constexpr std::array<Rgb, 7> seriesColours{
-    {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {120, 94, 10}, {30, 34, 40}}};
 constexpr Rgb barFill{86, 150, 205};
 
 std::vector<double> finite(const std::vector<double>& values) {
@@ -116,111 +113,7 @@ void paintChart(Painter& paint, const BoxPlot& chart, const ChartSize& size) {
 }
 
 void paintChart(Painter& paint, const XyChart& chart, const ChartSize& size) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  double lowX = infinity, highX = -infinity, lowY = infinity, highY = -infinity;
-  std::vector<double> allX, allY;
-  std::size_t leftOut = 0;
-  const auto usable = [&](double x, double y) {
-    return std::isfinite(x) && std::isfinite(y) && (!chart.x.logarithmic || x > 0.0) &&
-           (!chart.y.logarithmic || y > 0.0);
-  };
-  for (const XyChart::Series& s : chart.series) {
-    if (s.x.size() != s.y.size())
-      throw BadArgument("the series '" + s.name + "' has " + std::to_string(s.x.size()) + " x and " +
-                        std::to_string(s.y.size()) + " y values");
-    for (std::size_t n = 0; n < s.x.size(); ++n) {
-      if (!usable(s.x[n], s.y[n])) {
-        ++leftOut;
-        continue;
-      }
-      allX.push_back(s.x[n]);
-      allY.push_back(s.y[n]);
-      lowX = std::min(lowX, s.x[n]);
-      highX = std::max(highX, s.x[n]);
-      lowY = std::min(lowY, s.y[n]);
-      highY = std::max(highY, s.y[n]);
-    }
-  }
-  if (allX.empty()) throw BadArgument("the chart '" + chart.title + "' has no point that can be drawn on its axes");
-  for (const ReferenceLine& line : chart.lines) {
-    if (chart.y.logarithmic && !(line.value > 0.0)) continue;
-    lowY = std::min(lowY, line.value);
-    highY = std::max(highY, line.value);
-  }
-  std::string caption = chart.caption;
-  if (leftOut > 0)
-    caption += (caption.empty() ? "" : " ") + std::to_string(leftOut) + " point(s) cannot be shown on these axes.";
-  // Where each entry of the legend goes: in rows as wide as the chart.
-  const double f = chartFont(size);
-  std::vector<std::string> entries;
-  if (chart.paretoFront) entries.emplace_back("Pareto front");
-  for (const XyChart::Series& series : chart.series) entries.push_back(series.name);
-  std::vector<Point> place;  // offset from the first entry
-  Point next(0.0, 0.0);
-  for (const std::string& entry : entries) {
-    const double width = 3.4 * f + textWidth(entry, f);
-    if (next.x() > 0.0 && next.x() + width > size.width - 6.0 * f) next = {0.0, next.y() + 1.5 * f};
-    place.push_back(next);
-    next.x() += width;
-  }
-  const int legendRows = 1 + static_cast<int>(std::lround(next.y() / (1.5 * f)));
-  const ChartFrame frame = beginChart(paint, size, chart.title, caption, legendRows);
-  Scale x(chart.x, lowX, highX), y(chart.y, lowY, highY);
-  x.setPixels(frame.x0, frame.x1);
-  y.setPixels(frame.y1, frame.y0);
-  drawAxisY(paint, frame, y, chart.y.title);
-  drawAxisX(paint, frame, x, chart.x.title, true);
-  drawHorizontal(paint, frame, y, chart.lines);
-
-  std::vector<Stretch> taken;
-  const Point firstEntry(frame.x0, frame.y0 - 0.8 * f - next.y());
-  if (chart.paretoFront) {
-    const std::vector<std::size_t> front = paretoFront(allX, allY);
-    std::vector<Point> steps;
-    for (const std::size_t n : front) {
-      if (!steps.empty()) steps.emplace_back(x(allX[n]), steps.back().y());
-      steps.emplace_back(x(allX[n]), y(allY[n]));
-    }
-    const Stroke stair{.colour = {120, 126, 134}, .width = f / 8.0, .dashed = true};
-    paint.polyline(steps, stair);
-    for (std::size_t n = 1; n < steps.size(); ++n) taken.emplace_back(steps[n - 1], steps[n]);
-    for (const std::size_t n : front) paint.disc({x(allX[n]), y(allY[n])}, 0.62 * f, {255, 205, 70});
-    paint.disc(firstEntry + Point(0.6 * f, -0.35 * f), 0.55 * f, {255, 205, 70});
-    paint.text(firstEntry + Point(1.5 * f, 0.0), entries.front(), {.size_px = f, .colour = ink});
-  }
-  for (std::size_t s = 0; s < chart.series.size(); ++s) {
-    const XyChart::Series& series = chart.series[s];
-    const Rgb colour = series.colour.value_or(seriesColours[s % seriesColours.size()]);
-    const auto marker = [&](const Point& p) {  // shape beside colour
-      const double r = 0.38 * f;
-      if (s % 4 == 0)
-        paint.disc(p, r, colour);
-      else if (s % 4 == 1)
-        paint.rectangle(p.x() - 0.9 * r, p.y() - 0.9 * r, p.x() + 0.9 * r, p.y() + 0.9 * r, colour);
-      else if (s % 4 == 2)
-        paint.polygon(
-            {{p.x(), p.y() - 1.2 * r}, {p.x() + 1.1 * r, p.y() + 0.8 * r}, {p.x() - 1.1 * r, p.y() + 0.8 * r}}, colour);
-      else
-        paint.polygon(
-            {{p.x(), p.y() - 1.3 * r}, {p.x() + 1.3 * r, p.y()}, {p.x(), p.y() + 1.3 * r}, {p.x() - 1.3 * r, p.y()}},
-            colour);
-    };
-    const Stroke pen{.colour = colour, .width = f / 7.0, .dashed = series.dashed};
-    std::vector<Point> points;
-    for (std::size_t n = 0; n < series.x.size(); ++n)
-      if (usable(series.x[n], series.y[n])) points.emplace_back(x(series.x[n]), y(series.y[n]));
-    if (series.joined) paint.polyline(points, pen);
-    if (series.markers) std::for_each(points.begin(), points.end(), marker);
-    for (std::size_t n = 0; n < points.size(); ++n) {
-      if (series.markers || !series.joined) taken.emplace_back(points[n], points[n]);
-      if (series.joined && n > 0) taken.emplace_back(points[n - 1], points[n]);
-    }
-    const Point entry = firstEntry + place[s + (chart.paretoFront ? 1 : 0)];
-    if (series.joined) paint.line(entry + Point(0.0, -0.35 * f), entry + Point(1.6 * f, -0.35 * f), pen);
-    if (series.markers) marker(entry + Point(0.8 * f, -0.35 * f));
-    paint.text(entry + Point(2.0 * f, 0.0), series.name, {.size_px = f, .colour = ink});
-  }
-  labelHorizontal(paint, frame, y, chart.lines, std::move(taken));
+  detail::paintXyChart(paint, chart, size);
 }
 
 template <typename Chart>

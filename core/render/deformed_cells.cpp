@@ -16,7 +16,9 @@ constexpr std::array<std::array<int, 4>, 6> tetrahedra{
 /// Whether a tetrahedron's edges from its first corner are right-handed in the cell's own axes.
 constexpr std::array<bool, 6> rightHanded{true, false, false, true, true, false};
 
-Eigen::Vector3i cornerOffset(int bits) { return {bits & 1, bits >> 1 & 1, bits >> 2 & 1}; }
+Eigen::Vector3i cornerOffset(int bits) {
+  return {bits & 1, bits >> 1 & 1, bits >> 2 & 1};
+}
 
 }  // namespace
 
@@ -28,9 +30,9 @@ DeformedCells::DeformedCells(const image::DisplacementField& u_mm, const image::
       for (int i = 0; i + 1 < grid.size.x(); ++i) {
         bool reached = false;
         for (int c = 0; c < 9 && !reached; ++c) {
-          const Eigen::Vector3d at =
-              c < 8 ? Eigen::Vector3d((Eigen::Vector3i(i, j, k) + cornerOffset(c)).cast<double>())
-                    : Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5);
+          const Eigen::Vector3d at = c < 8
+                                         ? Eigen::Vector3d((Eigen::Vector3i(i, j, k) + cornerOffset(c)).cast<double>())
+                                         : Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5);
           reached = inside(grid.indexToLps(at)) > 0.0F;
         }
         if (reached) cells_.push_back(static_cast<std::uint32_t>(grid.linear(i, j, k)));
@@ -38,7 +40,9 @@ DeformedCells::DeformedCells(const image::DisplacementField& u_mm, const image::
   sort();
 }
 
-float DeformedCells::inside(const Eigen::Vector3d& x_lps) const { return sampleLinear(mask_, toMask_(x_lps)); }
+float DeformedCells::inside(const Eigen::Vector3d& x_lps) const {
+  return sampleLinear(mask_, toMask_(x_lps));
+}
 
 Eigen::Vector3i DeformedCells::lowestOf(std::uint32_t cell) const {
   const auto n = static_cast<std::size_t>(cell);
@@ -49,7 +53,8 @@ Eigen::Vector3i DeformedCells::lowestOf(std::uint32_t cell) const {
 std::size_t DeformedCells::boxAt(const Eigen::Vector3i& place) const {
   const Eigen::Vector3i b = place - low_;
   const auto nx = static_cast<std::size_t>(boxes_.x()), ny = static_cast<std::size_t>(boxes_.y());
-  return static_cast<std::size_t>(b.x()) + nx * (static_cast<std::size_t>(b.y()) + ny * static_cast<std::size_t>(b.z()));
+  return static_cast<std::size_t>(b.x()) +
+         nx * (static_cast<std::size_t>(b.y()) + ny * static_cast<std::size_t>(b.z()));
 }
 
 /// Where the corners are now, as indices of the field's grid.
@@ -98,8 +103,8 @@ void DeformedCells::sort() {
 }
 
 std::optional<Eigen::Vector3d> DeformedCells::rest(const Eigen::Vector3d& y_lps) const {
-  constexpr double outside = -1e-9;   // of the barycentric coordinates
-  constexpr double flat = 1e-9;       // of a voxel's volume
+  constexpr double outside = -1e-9;  // of the barycentric coordinates
+  constexpr double flat = 1e-9;      // of a voxel's volume
   const Eigen::Vector3d y = toIndex_(y_lps);
   const Eigen::Vector3i place = y.array().floor().cast<int>();
   if (((place - low_).array() < 0).any() || ((place - low_).array() >= boxes_.array()).any()) return {};
@@ -115,7 +120,8 @@ std::optional<Eigen::Vector3d> DeformedCells::rest(const Eigen::Vector3d& y_lps)
       const auto& tet = tetrahedra[t];
       const Eigen::Vector3d& from = corners[0];
       Eigen::Matrix3d edges;
-      for (int c = 0; c < 3; ++c) edges.col(c) = corners[static_cast<std::size_t>(tet[static_cast<std::size_t>(c) + 1])] - from;
+      for (int c = 0; c < 3; ++c)
+        edges.col(c) = corners[static_cast<std::size_t>(tet[static_cast<std::size_t>(c) + 1])] - from;
       const double volume = edges.determinant();
       if (std::abs(volume) < flat) continue;
       const Eigen::Vector3d share = edges.inverse() * (y - from);

@@ -13,15 +13,15 @@
 namespace glisson::render {
 
 /// The cells between the points of a displacement field as they lie after the displacement, each in six tetrahedra, and
-/// which of them holds a place. Finds the rest position also where iterations for it do not converge: beside a bar, where
-/// tissue is stretched by more than its own length or folds.
+/// which of them holds a place. Finds the rest position also where iterations for it do not converge: beside a bar,
+/// where tissue is stretched by more than its own length or folds.
 class DeformedCells {
  public:
   /// The cells that mask (0..1, on any grid) reaches into. The field must outlive this object.
   DeformedCells(const image::DisplacementField& u_mm, const image::ScalarVolume& mask);
 
-  /// Rest position of the material that is at y, by the linear map of the tetrahedron that holds it. Where several do, one
-  /// that is not turned inside out, and of these the one deepest in the mask. Empty: none does.
+  /// Rest position of the material that is at y, by the linear map of the tetrahedron that holds it. Where several do,
+  /// one that is not turned inside out, and of these the one deepest in the mask. Empty: none does.
   std::optional<Eigen::Vector3d> rest(const Eigen::Vector3d& y_lps) const;
   /// How much of the mask is at a rest position, 0..1.
   float inside(const Eigen::Vector3d& x_lps) const;

@@ -109,6 +109,76 @@ int sliceOr(int slice, const image::Grid& grid) {
   return slice < 0 ? grid.size.z() / 2 : slice;
 }
 
+/// |u_mre − u_atlas| anywhere in a scene, carried on a little beyond the liver.
+class DifferenceField {
+ public:
+  explicit DifferenceField(const RetractionScene& scene)
+      : liver_(asScalar(scene.liver)),
+        mre_(extended(scene.u_mre_mm, liver_, reach_mm())),
+        atlas_(extended(scene.u_atlas_mm, liver_, reach_mm())),
+        toLiver_(liver_.grid),
+        toMre_(mre_.grid),
+        toAtlas_(atlas_.grid) {}
+
+  bool inLiver(const Eigen::Vector3d& p_lps) const { return !(sampleLinear(liver_, toLiver_(p_lps)) < 0.5F); }
+  double at_mm(const Eigen::Vector3d& p_lps) const {
+    return static_cast<double>((sampleLinear(mre_, toMre_(p_lps)) - sampleLinear(atlas_, toAtlas_(p_lps))).norm());
+  }
+
+ private:
+  double reach_mm() const { return 2.0 * liver_.grid.spacing_mm.maxCoeff(); }
+
+  image::ScalarVolume liver_;
+  image::DisplacementField mre_, atlas_;
+  LpsToIndex toLiver_, toMre_, toAtlas_;
+};
+
+/// What of the liver a plane shows: the largest difference, and the box of its pixels.
+struct LiverOnPlane {
+  double largest_mm = 0.0;
+  Eigen::Vector2d low{1e9, 1e9}, high{-1e9, -1e9};
+};
+
+LiverOnPlane liverOn(const SlicePlane& plane, const DifferenceField& difference) {
+  LiverOnPlane liver;
+  for (int y = 0; y < plane.height; ++y)
+    for (int x = 0; x < plane.width; ++x) {
+      const Eigen::Vector3d p = plane.toLps(x + 0.5, y + 0.5);
+      if (!difference.inLiver(p)) continue;
+      liver.largest_mm = std::max(liver.largest_mm, difference.at_mm(p));
+      liver.low = liver.low.cwiseMin(Eigen::Vector2d(x, y));
+      liver.high = liver.high.cwiseMax(Eigen::Vector2d(x + 1, y + 1));
+    }
+  return liver;
+}
+
+/// A colour with an isoline over it. cover: of the pixel by the line, in [0, 1].
+Rgb withIsoline(Rgb c, double cover) {
+  const auto mix = [cover](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(std::lround(a + cover * (b - a)));
+  };
+  return {mix(c.r, isolineColour.r), mix(c.g, isolineColour.g), mix(c.b, isolineColour.b)};
+}
+
+/// The difference in colours over the liver, an isoline where it is clinically significant, dimmed anatomy around.
+Picture paintDifference(const RetractionScene& scene, const SlicePlane& plane, const DifferenceField& difference,
+                        const ColourBar& bar) {
+  const LpsToIndex toMri(scene.mri.grid);
+  const Grey grey(scene.mri);
+  return painted(plane, [&](const Eigen::Vector3d& p, int, int) -> Rgb {
+    if (!difference.inLiver(p)) {
+      const auto v = static_cast<std::uint8_t>(grey(sampleLinear(scene.mri, toMri(p))) * 0.6);
+      return {v, v, v};
+    }
+    const double d = difference.at_mm(p);
+    const double dx = difference.at_mm(p + plane.mmPerPixel * plane.right) - d;
+    const double dy = difference.at_mm(p + plane.mmPerPixel * plane.down) - d;
+    const double slope = std::hypot(dx, dy);
+    const double cover = slope > 1e-9 ? std::clamp(1.6 - std::abs(d - *bar.mark) / slope, 0.0, 1.0) : 0.0;
+    return withIsoline(bar.map.at((d - bar.low) / (bar.high - bar.low)), cover);
+  });
+}
+
 }  // namespace
 
 Picture stiffnessPicture(const image::ScalarVolume& stiffness_kPa, const std::string& barTitle,
@@ -178,67 +248,33 @@ Picture differencePicture(const RetractionScene& scene, const MapOptions& option
   checkOptions(grid, options);
   const int k = options.slice < 0 ? sliceOfLargestDifference(scene) : options.slice;
   SlicePlane plane = planeOfSlice(grid, k, options.pixelsPerVoxel);
-  const image::ScalarVolume liver = asScalar(scene.liver);
-  const double reach_mm = 2.0 * liver.grid.spacing_mm.maxCoeff();
-  const image::DisplacementField mreField = extended(scene.u_mre_mm, liver, reach_mm);
-  const image::DisplacementField atlasField = extended(scene.u_atlas_mm, liver, reach_mm);
-  const LpsToIndex toLiver(liver.grid), toMri(grid), toMre(mreField.grid), toAtlas(atlasField.grid);
-  const auto difference_mm = [&](const Eigen::Vector3d& p) {
-    return static_cast<double>((sampleLinear(mreField, toMre(p)) - sampleLinear(atlasField, toAtlas(p))).norm());
-  };
-
-  double largest = 0.0;
-  Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
-  for (int y = 0; y < plane.height; ++y)
-    for (int x = 0; x < plane.width; ++x) {
-      const Eigen::Vector3d p = plane.toLps(x + 0.5, y + 0.5);
-      if (sampleLinear(liver, toLiver(p)) < 0.5F) continue;
-      largest = std::max(largest, difference_mm(p));
-      low = low.cwiseMin(Eigen::Vector2d(x, y));
-      high = high.cwiseMax(Eigen::Vector2d(x + 1, y + 1));
-    }
-  if (options.margin_mm && low.x() <= high.x()) {
+  const DifferenceField difference(scene);
+  const LiverOnPlane liver = liverOn(plane, difference);
+  if (options.margin_mm && liver.low.x() <= liver.high.x()) {
     const Eigen::Vector2d margin = Eigen::Vector2d::Constant(*options.margin_mm / plane.mmPerPixel);
-    plane = cropOf(plane, low - margin, high + margin);
+    plane = cropOf(plane, liver.low - margin, liver.high + margin);
   }
-  const double top = std::max(options.high, std::ceil(largest));
-  const ColourMap map = ColourMap::magma();
-  const Grey grey(scene.mri);
-  const double limit = scene.clinicallySignificant_mm;
-  Picture picture = painted(plane, [&](const Eigen::Vector3d& p, int, int) -> Rgb {
-    if (sampleLinear(liver, toLiver(p)) < 0.5F) {
-      const auto v = static_cast<std::uint8_t>(grey(sampleLinear(scene.mri, toMri(p))) * 0.6);
-      return {v, v, v};
-    }
-    const double d = difference_mm(p);
-    const double pixel_mm = plane.mmPerPixel;
-    const double dx = difference_mm(p + pixel_mm * plane.right) - d, dy = difference_mm(p + pixel_mm * plane.down) - d;
-    const double slope = std::hypot(dx, dy);
-    const Rgb c = map.at((d - options.low) / (top - options.low));
-    const double cover = slope > 1e-9 ? std::clamp(1.6 - std::abs(d - limit) / slope, 0.0, 1.0) : 0.0;
-    const auto mix = [cover](std::uint8_t a, std::uint8_t b) {
-      return static_cast<std::uint8_t>(std::lround(a + cover * (b - a)));
-    };
-    return {mix(c.r, isolineColour.r), mix(c.g, isolineColour.g), mix(c.b, isolineColour.b)};
-  });
+  ColourBar bar{.map = ColourMap::magma(),
+                .low = options.low,
+                .high = std::max(options.high, std::ceil(liver.largest_mm)),
+                .title = "|u " + scene.stiffness + " − u atlas| (mm)",
+                .mark = scene.clinicallySignificant_mm};
+  bar.markColour = isolineColour;
+  Picture picture = paintDifference(scene, plane, difference, bar);
   if (!scene.valid) drawNotValid(picture);
   if (!options.decorate) return picture;
   SliceFrame frame{.plane = plane};
   frame.title = options.title;
   char text[120];
-  std::snprintf(text, sizeof text, "%g mm: clinically significant", limit);
+  std::snprintf(text, sizeof text, "%g mm: clinically significant", scene.clinicallySignificant_mm);
   frame.legend.push_back({isolineColour, text, true});
-  std::snprintf(text, sizeof text, ". Largest difference of the liver that lies here at rest: %.1f mm.", largest);
+  std::snprintf(text, sizeof text, ". Largest difference of the liver that lies here at rest: %.1f mm.",
+                liver.largest_mm);
   frame.notes = {sliceNote(k, grid) + text};
   frame.caption = scene.caption.empty() ? options.caption : scene.caption;
   frame.mark = scene.mark;
   frame.ring_lps_mm = options.ring_lps_mm;
-  frame.colourBar = ColourBar{.map = map,
-                              .low = options.low,
-                              .high = top,
-                              .title = "|u " + scene.stiffness + " − u atlas| (mm)",
-                              .mark = limit};
-  frame.colourBar->markColour = isolineColour;
+  frame.colourBar = bar;
   return frameSlice(picture, frame);
 }
 

@@ -34,8 +34,8 @@ struct RetractionScene {
   std::optional<Eigen::Vector3d> retractorPoint_lps_mm;            ///< centre of the contact at rest
   Eigen::Vector3d retractorAxis = Eigen::Vector3d::UnitX();        ///< along the bar, LPS
   Eigen::Vector3d retractorDirection = -Eigen::Vector3d::UnitY();  ///< of the hoist, LPS
-  /// A bar that is a body of its own, drawn where it ends under either stiffness; empty: the bar goes with the tissue at
-  /// its point.
+  /// A bar that is a body of its own, drawn where it ends under either stiffness; empty: the bar goes with the tissue
+  /// at its point.
   std::optional<RigidBar> bar;
   double retractorDiameter_mm = 10.0;
   double retractorLength_mm = 80.0;
@@ -43,9 +43,9 @@ struct RetractionScene {
   /// False: there is one answer only, and u_atlas_mm repeats it. What is drawn then tells of that answer alone.
   bool compared = true;
   std::string stiffness = "MRE";  ///< what the first answer's stiffness is called in legends
-  std::string caption;  ///< method line under the picture; holds no patient text
-  std::string mark;     ///< a reservation in words ("outside linear theory: ..."), shown in orange; may be empty
-  bool valid = true;    ///< false: a "not converged / outside validity" mark is drawn across
+  std::string caption;            ///< method line under the picture; holds no patient text
+  std::string mark;   ///< a reservation in words ("outside linear theory: ..."), shown in orange; may be empty
+  bool valid = true;  ///< false: a "not converged / outside validity" mark is drawn across
 };
 
 /// Arrows that one picture shows at most.
@@ -105,8 +105,8 @@ struct Camera3D {
   double elevation_deg = 0.0;
 };
 
-/// What of a retraction a 3-D picture shows: liver and vessels of both answers, or the contact pressure of a rigid bar on
-/// the surface of one.
+/// What of a retraction a 3-D picture shows: liver and vessels of both answers, or the contact pressure of a rigid bar
+/// on the surface of one.
 enum class Shown3D { Answers, PressureMre, PressureAtlas };
 
 /// From behind and below, a little from the right: where a bar that hoists towards anterior touches the liver.
@@ -127,9 +127,9 @@ struct SceneOptions3D {
 };
 
 /// Fills a renderer (on screen or off) with the 3-D overlay: liver at rest (faint), vessels deformed by MRE (blue) and
-/// by atlas (red), retractor bar, millimetre grid, scale, legend, research-use line. A rigid bar is shown where it first
-/// touches and where it ends under either stiffness, with the way between and its length. Or the deformed liver with the
-/// contact pressure on it and its scale in kPa. Clears what was in it.
+/// by atlas (red), retractor bar, millimetre grid, scale, legend, research-use line. A rigid bar is shown where it
+/// first touches and where it ends under either stiffness, with the way between and its length. Or the deformed liver
+/// with the contact pressure on it and its scale in kPa. Clears what was in it.
 void populate3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options = {});
 
 /// VTK draws the text of all its windows with one renderer that is not safe from several threads: hold this while a

@@ -53,18 +53,13 @@ Picture overlay3D(const RetractionScene& scene, const SceneOptions3D& options) {
   Draw3dJob job{&scene, &options, renderBackend(), threadCount(), {}, {}};
   const std::string build = version() + " " + buildCommit();
   switch (draw3d()(build.c_str(), job)) {
-    case Draw3dOutcome::Drawn:
-      return std::move(job.picture);
-    case Draw3dOutcome::Unavailable:
-      throw RenderUnavailable(job.error);
-    case Draw3dOutcome::BadInputFound:
-      throw BadInput(job.error);
-    case Draw3dOutcome::BadArgumentFound:
-      throw BadArgument(job.error);
+    case Draw3dOutcome::Drawn: return std::move(job.picture);
+    case Draw3dOutcome::Unavailable: throw RenderUnavailable(job.error);
+    case Draw3dOutcome::BadInputFound: throw BadInput(job.error);
+    case Draw3dOutcome::BadArgumentFound: throw BadArgument(job.error);
     case Draw3dOutcome::OtherBuild:
       throw RenderUnavailable(std::string(draw3dFile) + " belongs to another version of Glisson; install it again");
-    case Draw3dOutcome::Failed:
-      break;
+    case Draw3dOutcome::Failed: break;
   }
   throw Error(job.error);
 }

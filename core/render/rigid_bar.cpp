@@ -74,7 +74,8 @@ std::vector<Eigen::Vector3d> movedLine(const std::vector<Eigen::Vector3d>& line,
 anatomy::TriangleMesh barMesh(const std::vector<Eigen::Vector3d>& line, double radius) {
   if (line.size() < 2) throw BadArgument("barMesh: the centre line has fewer than two points");
   for (std::size_t i = 1; i < line.size(); ++i)
-    if (!((line[i] - line[i - 1]).norm() > 0.0)) throw BadArgument("barMesh: a point of the centre line is there twice");
+    if (!((line[i] - line[i - 1]).norm() > 0.0))
+      throw BadArgument("barMesh: a point of the centre line is there twice");
   constexpr int around = 48;
   const std::vector<Ring> rings = ringsOf(line, radius);
   anatomy::TriangleMesh mesh;
@@ -103,7 +104,8 @@ double pressureScale_kPa(const RigidBar& bar) {
   for (const BarContact* c : {&bar.mre, bar.atlas ? &*bar.atlas : nullptr}) {
     if (c == nullptr) continue;
     std::vector<float> pressed;
-    std::copy_if(c->pressure_kPa.begin(), c->pressure_kPa.end(), std::back_inserter(pressed), [](float p) { return p > 0; });
+    std::copy_if(c->pressure_kPa.begin(), c->pressure_kPa.end(), std::back_inserter(pressed),
+                 [](float p) { return p > 0; });
     if (pressed.empty()) continue;
     const auto at = pressed.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(pressed.size()));
     std::nth_element(pressed.begin(), at, pressed.end());

@@ -12,10 +12,10 @@ namespace glisson::render {
 
 /// What a rigid bar and the liver do to each other under one stiffness, at the end.
 struct BarContact {
-  double travel_mm = 0.0;  ///< of the bar from its first touch, along the hoist
-  double force_N = 0.0;    ///< of the bar on the liver, along the hoist
+  double travel_mm = 0.0;    ///< of the bar from its first touch, along the hoist
+  double force_N = 0.0;      ///< of the bar on the liver, along the hoist
   double resultant_N = 0.0;  ///< the size of all of it
-  double area_mm2 = 0.0;   ///< of the surface that touches
+  double area_mm2 = 0.0;     ///< of the surface that touches
   /// Largest force met on the way, and whether it fell beyond it; slipped: it fell below what was asked for.
   double capacity_N = 0.0;
   bool capacityExceeded = false, slipped = false;
@@ -39,12 +39,12 @@ anatomy::TriangleMesh movedSurface(const RigidBar& bar, const BarContact& contac
 /// The centre line, further along.
 std::vector<Eigen::Vector3d> movedLine(const std::vector<Eigen::Vector3d>& line, const Eigen::Vector3d& by);
 
-/// A round bar along a centre line, with round ends, outward oriented. The line has at least two points, none twice in a
-/// row; throws BadArgument otherwise.
+/// A round bar along a centre line, with round ends, outward oriented. The line has at least two points, none twice in
+/// a row; throws BadArgument otherwise.
 anatomy::TriangleMesh barMesh(const std::vector<Eigen::Vector3d>& centreline, double radius);
 
-/// End of the colour scale of both contacts: the pressure that 98 % of what touches stays below, rounded up to 1, 2, 3, 4,
-/// 6 or 8 times a power of ten. 1 kPa where nothing touches.
+/// End of the colour scale of both contacts: the pressure that 98 % of what touches stays below, rounded up to 1, 2, 3,
+/// 4, 6 or 8 times a power of ten. 1 kPa where nothing touches.
 double pressureScale_kPa(const RigidBar& bar);
 /// The largest pressure of both contacts, 0 where nothing touches.
 double largestPressure_kPa(const RigidBar& bar);

@@ -55,8 +55,8 @@ class InverseMap {
   };
   /// clampOutside: beyond the field's grid its edge value goes on (otherwise 0). The field must outlive this object.
   InverseMap(const image::DisplacementField& u_mm, bool clampOutside);
-  /// Material of the mask (0..1) is found wherever a cell of it lies, and before what the field is beyond it. The mask must
-  /// outlive this object.
+  /// Material of the mask (0..1) is found wherever a cell of it lies, and before what the field is beyond it. The mask
+  /// must outlive this object.
   InverseMap(const image::DisplacementField& u_mm, bool clampOutside, const image::ScalarVolume& mask);
   ~InverseMap();
 

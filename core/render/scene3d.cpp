@@ -38,7 +38,8 @@ Eigen::Vector3d still(const Eigen::Vector3d& p) {
 }
 
 void cover(Eigen::AlignedBox3d& box, const anatomy::TriangleMesh& mesh) {
-  for (Eigen::Index n = 0; n < mesh.vertices_lps_mm.cols(); ++n) box.extend(Eigen::Vector3d(mesh.vertices_lps_mm.col(n)));
+  for (Eigen::Index n = 0; n < mesh.vertices_lps_mm.cols(); ++n)
+    box.extend(Eigen::Vector3d(mesh.vertices_lps_mm.col(n)));
 }
 
 /// Where the bar of a contact lies after a fraction of its way.
@@ -125,8 +126,8 @@ void Picture3D::answers() {
   finish(std::move(legend));
 }
 
-/// The liver at rest and moved, as glass. Where a rigid bar touches it, the surface on which contact was solved: it does
-/// not pass through the bar.
+/// The liver at rest and moved, as glass. Where a rigid bar touches it, the surface on which contact was solved: it
+/// does not pass through the bar.
 void Picture3D::surfaces(const Motion& mre, const Motion& atlas) {
   const auto glass = [&](const anatomy::TriangleMesh& mesh, const Motion& motion, Rgb colour) {
     stage_.add(glassSurface(mesh, motion, colour, 0.02, 0.40));
@@ -205,19 +206,21 @@ void Picture3D::pressure() {
     stage_.add(glassSurface(barAfter(scene_, contact, options_.t), still, steelGrey, 0.10, 0.95));
   }
   const Rgb own = ofMre ? colour_.mre : colour_.atlas;
-  std::vector<LegendRow> legend{{own, "way of the bar, " + (ofMre ? scene_.stiffness : std::string("atlas")) + " stiffness"},
-                                {pressureColour(0.9), "contact: " + inWords(contact.force_N, 1, "N along the hoist,")},
-                                {pressureColour(0.9), inWords(contact.resultant_N, 1, "N in all, on ") +
-                                                          inWords(1e-2 * contact.area_mm2, 1, "cm²")},
-                                {pressureColour(0.0), "liver, retracted"},
-                                {steelGrey, "bar (see-through)"}};
+  std::vector<LegendRow> legend{
+      {own, "way of the bar, " + (ofMre ? scene_.stiffness : std::string("atlas")) + " stiffness"},
+      {pressureColour(0.9), "contact: " + inWords(contact.force_N, 1, "N along the hoist,")},
+      {pressureColour(0.9),
+       inWords(contact.resultant_N, 1, "N in all, on ") + inWords(1e-2 * contact.area_mm2, 1, "cm²")},
+      {pressureColour(0.0), "liver, retracted"},
+      {steelGrey, "bar (see-through)"}};
   finish(std::move(legend));
   if (options_.decorate) stage_.drawScale(scale_kPa, largestPressure_kPa(*scene_.bar) > scale_kPa, "Pressure (kPa)");
 }
 
 void Picture3D::finish(std::vector<LegendRow> legend) {
   legend.push_back(gridRow);
-  box_ = roundedOut({box_.min() - Eigen::Vector3d::Constant(4.0), box_.max() + Eigen::Vector3d::Constant(4.0)}, grid_mm);
+  box_ =
+      roundedOut({box_.min() - Eigen::Vector3d::Constant(4.0), box_.max() + Eigen::Vector3d::Constant(4.0)}, grid_mm);
   stage_.aim(box_, options_.decorate, legend);
   if (options_.arrows && options_.shown == Shown3D::Answers)
     stage_.drawArrows(displacementArrows(scene_, options_.arrows_mm, mostArrows), colour_, options_.t);

@@ -131,6 +131,135 @@ void drawColourBar(RasterPainter& paint, const ColourBar& bar, double x, double 
              {.size_px = font_px, .colour = light, .anchor = Anchor::Centre, .angle_deg = 90.0});
 }
 
+/// Where the parts of a framed slice lie, pixels.
+struct Layout {
+  Layout(const Picture& image, const SliceFrame& frame);
+
+  /// First pixel of the inset, which lies beside the image or below it.
+  Point insetCorner(const Picture& image, const SliceFrame& frame) const {
+    const int x = frame.insetBelow ? x0 : static_cast<int>(x0 + image.width + bar + gap);
+    const int y = frame.insetBelow ? static_cast<int>(y0 + image.height + ticks) : y0;
+    return Point(x, y);
+  }
+
+  double font;
+  double left, top, gap;
+  double bar;         ///< width of the colour bar with its labels
+  double lineHeight;  ///< of the text below
+  double legendRows;  ///< height of the legend
+  double ticks;       ///< height of the grid's labels
+  double body = 0.0;  ///< height of the image, with the inset where that lies below
+  double bottom = 0.0;
+  std::vector<std::string> notes, mark, caption;  ///< in lines
+  int x0, y0;                                     ///< first pixel of the image
+  int width = 0, height = 0;                      ///< of the whole
+};
+
+Layout::Layout(const Picture& image, const SliceFrame& frame)
+    : font(frameFontSize(image)),
+      left(frame.gridTicks_mm ? 3.4 * font : 1.2 * font),
+      top(frame.title.empty() ? 1.2 * font : 2.8 * font),
+      gap(1.4 * font),
+      bar(frame.colourBar ? 6.4 * font : 0.0),
+      lineHeight(1.5 * font),
+      legendRows(frame.legend.empty() ? 0.0 : 1.9 * font),
+      ticks(frame.gridTicks_mm ? 1.6 * font : 0.5 * font),
+      x0(static_cast<int>(left)),
+      y0(static_cast<int>(top)) {
+  double right = gap;
+  if (frame.inset && !frame.insetBelow) right += frame.inset->width + gap;
+  const double wanted = std::max({legendWidth(frame.legend, font), textWidth(researchUseOnly, font),
+                                  textWidth(frame.title, 1.2 * font, true)}) +
+                        left;
+  width = static_cast<int>(std::ceil(std::max(left + image.width + bar + right, wanted)));
+  const double text_px = width - left - gap;
+  for (const std::string& note : frame.notes)
+    for (std::string& line : wrapText(note, font, text_px)) notes.push_back(std::move(line));
+  caption = wrapText(frame.caption, font, text_px);
+  if (!frame.mark.empty()) mark = wrapText(frame.mark, font, text_px);
+  bottom = ticks + legendRows + lineHeight * static_cast<double>(notes.size() + mark.size() + caption.size() + 1) +
+           0.9 * font;
+  const double insetHeight = frame.inset ? frame.inset->height + (frame.insetTitle.empty() ? 0.0 : 1.6 * font) : 0.0;
+  body = frame.insetBelow && frame.inset ? image.height + ticks + insetHeight
+                                         : std::max<double>(image.height, insetHeight);
+  height = static_cast<int>(std::ceil(top + body + bottom));
+}
+
+/// Everything on the image and at its edges.
+void drawAround(RasterPainter& paint, const Picture& image, const SliceFrame& frame, const Layout& at) {
+  const double font = at.font;
+  const int x0 = at.x0, y0 = at.y0;
+  paint.frame(x0 - 0.5, y0 - 0.5, x0 + image.width + 0.5, y0 + image.height + 0.5, {.colour = faint, .width = 1.0});
+  if (!frame.title.empty())
+    paint.text({at.left, 1.9 * font}, frame.title, {.size_px = 1.2 * font, .colour = light, .bold = true});
+  if (frame.gridTicks_mm) drawTicks(paint, frame.plane, *frame.gridTicks_mm, x0, y0, font);
+  drawOrientation(paint, frame.plane, x0, y0, image.width, image.height, font);
+  drawScaleBar(paint, x0 + font, y0 + image.height - 0.9 * font, frame.plane.mmPerPixel, 0.3 * image.width, font);
+  if (frame.ring_lps_mm) drawRing(paint, frame.plane, *frame.ring_lps_mm, x0, y0, 0.6 * font);
+  if (frame.colourBar)
+    drawColourBar(paint, *frame.colourBar, x0 + image.width + font, y0 + 0.5 * font, image.height - font, font);
+}
+
+Stroke insetEdge(double font) {
+  return {.colour = {255, 255, 255}, .width = std::max(1.5, font / 12.0)};
+}
+
+/// The inset's place on the image, tied to its corners.
+void drawTies(RasterPainter& paint, const SliceFrame& frame, const Point& corner, const Layout& at) {
+  const SlicePlane& zoom = *frame.insetPlane;
+  const bool below = frame.insetBelow;
+  const Point low = frame.plane.toPixel(zoom.corner_lps) + Point(at.x0, at.y0);
+  const double side = zoom.width * zoom.mmPerPixel / frame.plane.mmPerPixel;
+  const Stroke tie{.colour = {255, 255, 255}, .width = 1.0, .dashed = true, .alpha = 0.6};
+  paint.frame(low.x(), low.y(), low.x() + side, low.y() + side, insetEdge(at.font));
+  const Point near = low + (below ? Point(0.0, side) : Point(side, 0.0)), far = low + Point(side, side);
+  const Point next = corner + (below ? Point(zoom.width, 0.0) : Point(0.0, zoom.height));
+  paint.line(near, corner, tie);
+  paint.line(far, next, tie);
+}
+
+/// A ruler of 5 mm, its first pixel at (x, y).
+void drawRuler(RasterPainter& paint, double mmPerPixel, double x, double y, double font) {
+  const double ruler_px = 5.0 / mmPerPixel;
+  paint.rectangle(x - 2, y - 0.5 * font - 2, x + ruler_px + 2, y + 2, {0, 0, 0}, 0.6);
+  paint.line({x, y - 0.2 * font}, {x + ruler_px, y - 0.2 * font}, {.colour = warning, .width = 3.0});
+  for (int mm = 0; mm <= 5; ++mm)
+    paint.line({x + mm / mmPerPixel, y - (mm % 5 == 0 ? 0.7 : 0.45) * font}, {x + mm / mmPerPixel, y},
+               {.colour = warning, .width = 2.0});
+  paint.text({x + 0.5 * ruler_px, y - 1.0 * font}, "5 mm",
+             {.size_px = font, .colour = warning, .anchor = Anchor::Centre, .halo_px = 2.0});
+}
+
+void drawOnInset(RasterPainter& paint, const SliceFrame& frame, const Point& corner, const Layout& at) {
+  const SlicePlane& zoom = *frame.insetPlane;
+  const double font = at.font, x = corner.x(), y = corner.y();
+  paint.frame(x, y, x + zoom.width, y + zoom.height, insetEdge(font));
+  if (frame.ring_lps_mm) drawRing(paint, zoom, *frame.ring_lps_mm, x, y, font);
+  drawRuler(paint, zoom.mmPerPixel, x + font, y + zoom.height - font, font);
+  if (!frame.insetTitle.empty() && y + zoom.height + 1.6 * font < at.top + at.body + at.bottom)
+    paint.text({x, y + zoom.height + 1.4 * font}, frame.insetTitle, {.size_px = font, .colour = light});
+}
+
+/// Legend, notes, reservation and caption.
+void drawBelow(RasterPainter& paint, const SliceFrame& frame, const Layout& at) {
+  const double font = at.font;
+  double y = at.top + at.body + (frame.insetBelow && frame.inset ? 0.0 : at.ticks);
+  if (!frame.legend.empty()) {
+    drawLegend(paint, frame.legend, at.left, y + 1.3 * font, font);
+    y += at.legendRows;
+  }
+  const auto write = [&](const std::vector<std::string>& lines, Rgb colour) {
+    for (const std::string& line : lines) {
+      y += at.lineHeight;
+      paint.text({at.left, y}, line, {.size_px = font, .colour = colour});
+    }
+  };
+  write(at.notes, light);
+  write(at.mark, warning);
+  write(at.caption, faint);
+  write({researchUseOnly}, warning);
+}
+
 }  // namespace
 
 std::vector<double> gridLines_mm(double low_mm, double high_mm, double spacing_mm) {
@@ -146,99 +275,18 @@ double frameFontSize(const Picture& image) {
 }
 
 Picture frameSlice(const Picture& image, const SliceFrame& frame) {
-  const double font = frameFontSize(image);
-  const double left = frame.gridTicks_mm ? 3.4 * font : 1.2 * font;
-  const double top = frame.title.empty() ? 1.2 * font : 2.8 * font;
-  const double gap = 1.4 * font;
-  double right = gap;
-  const double bar = frame.colourBar ? 6.4 * font : 0.0;
-  if (frame.inset && !frame.insetBelow) right += frame.inset->width + gap;
-  const double wanted = std::max({legendWidth(frame.legend, font), textWidth(researchUseOnly, font),
-                                  textWidth(frame.title, 1.2 * font, true)}) +
-                        left;
-  const int width = static_cast<int>(std::ceil(std::max(left + image.width + bar + right, wanted)));
-  double noteWidth = 0.0;
-  std::vector<std::string> notes;
-  for (const std::string& note : frame.notes)
-    for (std::string& line : wrapText(note, font, width - left - gap)) notes.push_back(std::move(line));
-  for (const std::string& line : notes) noteWidth = std::max(noteWidth, textWidth(line, font));
-  const std::vector<std::string> caption = wrapText(frame.caption, font, width - left - gap);
-  const std::vector<std::string> mark =
-      frame.mark.empty() ? std::vector<std::string>{} : wrapText(frame.mark, font, width - left - gap);
-
-  const double lineHeight = 1.5 * font;
-  const double legendRows = frame.legend.empty() ? 0.0 : 1.9 * font;
-  const double ticks = frame.gridTicks_mm ? 1.6 * font : 0.5 * font;
-  const double bottom = ticks + legendRows +
-                        lineHeight * static_cast<double>(notes.size() + mark.size() + caption.size() + 1) + 0.9 * font;
-  const double insetHeight = frame.inset ? frame.inset->height + (frame.insetTitle.empty() ? 0.0 : 1.6 * font) : 0.0;
-  const double body = frame.insetBelow && frame.inset ? image.height + ticks + insetHeight
-                                                      : std::max<double>(image.height, insetHeight);
-  const int height = static_cast<int>(std::ceil(top + body + bottom));
-
-  Picture out = blankPicture(width, height, night);
+  const Layout layout(image, frame);
+  Picture out = blankPicture(layout.width, layout.height, night);
+  paste(out, image, layout.x0, layout.y0);
   RasterPainter paint(out);
-  const int x0 = static_cast<int>(left), y0 = static_cast<int>(top);
-  paste(out, image, x0, y0);
-  paint.frame(x0 - 0.5, y0 - 0.5, x0 + image.width + 0.5, y0 + image.height + 0.5, {.colour = faint, .width = 1.0});
-  if (!frame.title.empty())
-    paint.text({left, 1.9 * font}, frame.title, {.size_px = 1.2 * font, .colour = light, .bold = true});
-  if (frame.gridTicks_mm) drawTicks(paint, frame.plane, *frame.gridTicks_mm, x0, y0, font);
-  drawOrientation(paint, frame.plane, x0, y0, image.width, image.height, font);
-  drawScaleBar(paint, x0 + font, y0 + image.height - 0.9 * font, frame.plane.mmPerPixel, 0.3 * image.width, font);
-  if (frame.ring_lps_mm) drawRing(paint, frame.plane, *frame.ring_lps_mm, x0, y0, 0.6 * font);
-  if (frame.colourBar)
-    drawColourBar(paint, *frame.colourBar, x0 + image.width + font, y0 + 0.5 * font, image.height - font, font);
-
+  drawAround(paint, image, frame, layout);
   if (frame.inset && frame.insetPlane) {
-    const SlicePlane& zoom = *frame.insetPlane;
-    const bool below = frame.insetBelow;
-    const int ix = below ? x0 : static_cast<int>(x0 + image.width + bar + gap);
-    const int iy = below ? static_cast<int>(y0 + image.height + ticks) : y0;
-    const Point low = frame.plane.toPixel(zoom.corner_lps) + Point(x0, y0);
-    const double side = zoom.width * zoom.mmPerPixel / frame.plane.mmPerPixel;
-    const Stroke white{.colour = {255, 255, 255}, .width = std::max(1.5, font / 12.0)};
-    const Stroke tie{.colour = {255, 255, 255}, .width = 1.0, .dashed = true, .alpha = 0.6};
-    paint.frame(low.x(), low.y(), low.x() + side, low.y() + side, white);
-    const Point near = low + (below ? Point(0.0, side) : Point(side, 0.0)), far = low + Point(side, side);
-    const Point corner(ix, iy), next = corner + (below ? Point(zoom.width, 0.0) : Point(0.0, zoom.height));
-    paint.line(near, corner, tie);
-    paint.line(far, next, tie);
-    paste(out, *frame.inset, ix, iy);
-    paint.frame(ix, iy, ix + zoom.width, iy + zoom.height, white);
-    if (frame.ring_lps_mm) drawRing(paint, zoom, *frame.ring_lps_mm, ix, iy, font);
-    const double ruler_px = 5.0 / zoom.mmPerPixel, rx = ix + font, ry = iy + zoom.height - font;
-    paint.rectangle(rx - 2, ry - 0.5 * font - 2, rx + ruler_px + 2, ry + 2, {0, 0, 0}, 0.6);
-    paint.line({rx, ry - 0.2 * font}, {rx + ruler_px, ry - 0.2 * font}, {.colour = warning, .width = 3.0});
-    for (int mm = 0; mm <= 5; ++mm)
-      paint.line({rx + mm / zoom.mmPerPixel, ry - (mm % 5 == 0 ? 0.7 : 0.45) * font}, {rx + mm / zoom.mmPerPixel, ry},
-                 {.colour = warning, .width = 2.0});
-    paint.text({rx + 0.5 * ruler_px, ry - 1.0 * font}, "5 mm",
-               {.size_px = font, .colour = warning, .anchor = Anchor::Centre, .halo_px = 2.0});
-    if (!frame.insetTitle.empty() && iy + zoom.height + 1.6 * font < top + body + bottom)
-      paint.text({static_cast<double>(ix), iy + zoom.height + 1.4 * font}, frame.insetTitle,
-                 {.size_px = font, .colour = light});
+    const Point corner = layout.insetCorner(image, frame);
+    drawTies(paint, frame, corner, layout);
+    paste(out, *frame.inset, static_cast<int>(corner.x()), static_cast<int>(corner.y()));
+    drawOnInset(paint, frame, corner, layout);
   }
-
-  double y = top + body + (frame.insetBelow && frame.inset ? 0.0 : ticks);
-  if (!frame.legend.empty()) {
-    drawLegend(paint, frame.legend, left, y + 1.3 * font, font);
-    y += legendRows;
-  }
-  for (const std::string& note : notes) {
-    y += lineHeight;
-    paint.text({left, y}, note, {.size_px = font, .colour = light});
-  }
-  for (const std::string& line : mark) {
-    y += lineHeight;
-    paint.text({left, y}, line, {.size_px = font, .colour = warning});
-  }
-  for (const std::string& line : caption) {
-    y += lineHeight;
-    paint.text({left, y}, line, {.size_px = font, .colour = faint});
-  }
-  y += lineHeight;
-  paint.text({left, y}, researchUseOnly, {.size_px = font, .colour = warning});
+  drawBelow(paint, frame, layout);
   return out;
 }
 

@@ -128,8 +128,9 @@ void Stage::drawWords(const Eigen::Vector3d& at, const Eigen::Vector3d& aside, b
                       const std::string& words) {
   const double size_px = 1.15 * font_px_;
   const double across = aside.dot(view_.right) < 0.0 ? -1.0 : 1.0;
-  const Eigen::Vector3d middle = at + mmPerPixel_ * (across * (0.5 * textWidth(words, size_px) + 0.4 * size_px) * view_.right +
-                                                     (above ? 0.7 : -0.7) * size_px * view_.up);
+  const Eigen::Vector3d middle =
+      at + mmPerPixel_ * (across * (0.5 * textWidth(words, size_px) + 0.4 * size_px) * view_.right +
+                          (above ? 0.7 : -0.7) * size_px * view_.up);
   takeRoom(middle, words, size_px);  // a number of the grid stands back
   add(label3D(middle, words, mixed(colour, {255, 255, 255}, 0.35), size_px, true));
 }
@@ -141,7 +142,8 @@ void Stage::drawText(const RetractionScene& scene, std::vector<LegendRow> legend
   if (arrows_ > 0) legend.push_back({colours::light, std::to_string(arrows_) + " places, to scale"});
   for (const LegendRow& row : legend) {
     add(screenSwatch(x, y, side / width_, side / height_, row.colour));
-    add(screenText(x + 1.7 * font_px_ / width_, y + 0.1 * font_px_ / height_, row.text, colours::light, font_px_, false));
+    add(screenText(x + 1.7 * font_px_ / width_, y + 0.1 * font_px_ / height_, row.text, colours::light, font_px_,
+                   false));
     y -= lineHeight;
   }
   if (t < 1.0)

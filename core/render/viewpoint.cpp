@@ -10,20 +10,13 @@ namespace {
 /// The eye's place on a sphere: azimuth 0 is anterior and grows towards the patient's left, elevation 90 is superior.
 Camera3D cameraOf(View3D view) {
   switch (view) {
-    case View3D::Anterior:
-      return {0, 0};
-    case View3D::Posterior:
-      return {180, 0};
-    case View3D::Left:
-      return {90, 0};
-    case View3D::Right:
-      return {-90, 0};
-    case View3D::Superior:
-      return {0, 90};
-    case View3D::Inferior:
-      return {0, -90};
-    case View3D::Oblique:
-      break;
+    case View3D::Anterior: return {0, 0};
+    case View3D::Posterior: return {180, 0};
+    case View3D::Left: return {90, 0};
+    case View3D::Right: return {-90, 0};
+    case View3D::Superior: return {0, 90};
+    case View3D::Inferior: return {0, -90};
+    case View3D::Oblique: break;
   }
   return {-30.5, 20};
 }

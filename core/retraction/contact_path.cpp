@@ -1,7 +1,5 @@
 #include "retraction/contact_path.h"
 
-#include <algorithm>
-
 #include "retraction/simulate.h"
 
 namespace glisson::retraction {
@@ -17,28 +15,31 @@ double forceAt(const ContactPath& path, double travel_mm) {
   return path.back()[1];
 }
 
-double travelAtCapacity(const RigidContact& c) {
-  for (std::size_t i = 0; i < c.path.size(); ++i) {
-    if (c.path[i][1] < c.capacity_N) continue;
-    if (i == 0) return c.path[0][0];
-    const double rise_N = c.path[i][1] - c.path[i - 1][1];
-    const double t = (c.capacity_N - c.path[i - 1][1]) / rise_N;
-    return c.path[i - 1][0] + std::clamp(t, 0.0, 1.0) * (c.path[i][0] - c.path[i - 1][0]);
+double answersForceAt(const RigidContact& c, double travel_mm) {
+  const double borne_N = c.force_N.dot(c.hoist);
+  ContactPath path;
+  for (const auto& step : c.path) {
+    if (step[1] >= borne_N && !path.empty()) {
+      const double rise_N = step[1] - path.back()[1], t = (borne_N - path.back()[1]) / rise_N;
+      path.push_back({path.back()[0] + t * (step[0] - path.back()[0]), borne_N});
+      break;
+    }
+    path.push_back(step);
   }
-  // The answer's cells bore more than the path's.
-  const auto most =
-      std::max_element(c.path.begin(), c.path.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
-  return most == c.path.end() ? c.travel_mm : (*most)[0];
+  if (path.size() < 2 || path.back()[1] != borne_N || !(path.back()[0] > 0.0)) return forceAt(c.path, travel_mm);
+  const double stretch = c.travel_mm / path.back()[0];
+  for (auto& step : path) step[0] *= stretch;
+  return forceAt(path, travel_mm);
 }
 
-std::optional<double> passedOnTheWay_N(const RigidContact& c) {
+std::optional<std::array<double, 2>> passedOnTheWay(const RigidContact& c) {
   constexpr double clearly = 0.9;    // of the largest force: states of the path are loose
   constexpr double before_mm = 1.0;  // the end, where that force was met
   if (!(c.asked_mm > 0.0) || c.path.empty()) return {};
-  double most_N = 0.0;
-  for (const auto& [travel_mm, force_N] : c.path)
-    if (travel_mm < c.path.back()[0] - before_mm) most_N = std::max(most_N, force_N);
-  if (c.path.back()[1] < clearly * most_N) return most_N;
+  std::array<double, 2> most = {0.0, 0.0};
+  for (const auto& step : c.path)
+    if (step[0] < c.path.back()[0] - before_mm && step[1] > most[1]) most = step;
+  if (c.path.back()[1] < clearly * most[1]) return most;
   return {};
 }
 

@@ -14,12 +14,13 @@ using ContactPath = std::vector<std::array<double, 2>>;
 /// Force at a travel, linear between the steps; that of the first or last step before or beyond them.
 double forceAt(const ContactPath& path, double travel_mm);
 
-/// Travel at which the largest force is borne. The path is followed on coarse cells, which may bear more than those of
-/// the answer: where the capacity lies below the path's largest force, where the path first comes to it.
-double travelAtCapacity(const RigidContact& contact);
+/// Force at a travel along the path brought to the answer: followed on coarse cells, it is stretched in travel so that
+/// it ends where the answer does. At the answer's own travel that is its own force. Where the path does not bear the
+/// answer's force, that of the path as it is.
+double answersForceAt(const RigidContact& contact, double travel_mm);
 
-/// Of a bar that is driven by its travel: the largest force of its path, N, where the force at its end is clearly below
-/// that; else empty.
-std::optional<double> passedOnTheWay_N(const RigidContact& contact);
+/// Of a bar that is driven by its travel: travel (mm) and the largest force (N) of its path, where the force at its end
+/// is clearly below that; else empty.
+std::optional<std::array<double, 2>> passedOnTheWay(const RigidContact& contact);
 
 }  // namespace glisson::retraction

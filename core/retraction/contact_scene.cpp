@@ -17,10 +17,10 @@ namespace glisson::retraction {
 namespace {
 
 constexpr double mmToM = 1e-3;
-constexpr double leastFraction = 0.1;  ///< of a cell, for it to be one
-constexpr double sample_mm = 1.5;      ///< largest spacing of the samples of the surface
-constexpr double sampleOfRadius = 0.3; ///< the same, of the bar's: none slips between them
-constexpr double rind_mm = 3.0;        ///< depth of the layer that stands for the capsule
+constexpr double leastFraction = 0.1;   ///< of a cell, for it to be one
+constexpr double sample_mm = 1.5;       ///< largest spacing of the samples of the surface
+constexpr double sampleOfRadius = 0.3;  ///< the same, of the bar's: none slips between them
+constexpr double rind_mm = 3.0;         ///< depth of the layer that stands for the capsule
 
 struct Samples {
   std::vector<Eigen::Vector3d> p_mm, normal;  ///< LPS
@@ -35,7 +35,7 @@ double spacingFor(const Retractor& bar) {
 
 /// The triangles of the smooth surface, gathered in cubes of edge `spacing_mm`.
 Samples samplesOf(const SmoothBody& smooth, double spacing_mm) {
-  const mechanics::TriangleSurface surface = smooth.surface();
+  const mechanics::TriangleSurface& surface = smooth.surface();
   Samples s;
   std::unordered_map<std::int64_t, std::size_t> at;
   for (const auto& t : surface.triangles) {
@@ -175,9 +175,9 @@ void addSupports(const Body& body, const Model& model, const Setup& setup, const
     if (!look) {
       std::vector<mechanics::Face> faces;
       for (const SurfaceFace* f : body.faces(s.region)) faces.push_back(f->face);
-      for (mechanics::Spring spring :
-           mechanics::faceSprings(body.mesh(), faces, k_N_m3,
-                                  s.normalOnly ? mechanics::SpringDirection::Normal : mechanics::SpringDirection::Every)) {
+      for (mechanics::Spring spring : mechanics::faceSprings(
+               body.mesh(), faces, k_N_m3,
+               s.normalOnly ? mechanics::SpringDirection::Normal : mechanics::SpringDirection::Every)) {
         spring.node = nodeOf(spring.node);
         if (spring.node >= 0) supports.springs.push_back(spring);
       }
@@ -204,7 +204,9 @@ void addFollowing(const Body& body, const Setup& setup, const Eigen::Vector3d& s
     const Eigen::Vector3d middle = 0.25 * (c[0] + c[1] + c[2] + c[3]), normal = mechanics::faceNormal(f.face.side);
     const Eigen::Vector3d first = c[0] - middle, second = normal.cross(first);
     std::sort(c.begin(), c.end(), [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-      const auto angle = [&](const Eigen::Vector3d& v) { return std::atan2((v - middle).dot(second), (v - middle).dot(first)); };
+      const auto angle = [&](const Eigen::Vector3d& v) {
+        return std::atan2((v - middle).dot(second), (v - middle).dot(first));
+      };
       return angle(a) < angle(b);
     });
     return c;
@@ -228,8 +230,8 @@ void addFollowing(const Body& body, const Setup& setup, const Eigen::Vector3d& s
       for (const SurfaceFace* f : body.faces(s.region))
         for (const int node : f->nodes) {
           const double k_N_m = 0.25 * mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm * f->area_m2;
-          p.bed.push_back({mesh.position_m(node) + shift_m, mechanics::faceNormal(f->face.side), k_N_m,
-                           s.tangential * k_N_m});
+          p.bed.push_back(
+              {mesh.position_m(node) + shift_m, mechanics::faceNormal(f->face.side), k_N_m, s.tangential * k_N_m});
         }
   for (const LigamentFibres& ligament : ligamentsOf(body, setup))
     for (mechanics::Tether t : ligament.fibres) {
@@ -288,8 +290,8 @@ ContactScene contactScene(const Body& body, const Model& model, const Setup& set
   const Eigen::Vector3d shift_m = out.layers.cast<double>().cwiseProduct(body.voxels().h_m);
   Samples samples = model.smooth ? samplesOf(*model.smooth, spacingFor(bar)) : samplesOf(body, spacingFor(bar));
   for (std::size_t i = 0; i < samples.p_mm.size(); ++i)
-    p.surface.push_back({body.toLocal_m(samples.p_mm[i]) + shift_m, body.vectorToLocal(samples.normal[i]),
-                         1e-6 * samples.area_mm2[i]});
+    p.surface.push_back(
+        {body.toLocal_m(samples.p_mm[i]) + shift_m, body.vectorToLocal(samples.normal[i]), 1e-6 * samples.area_mm2[i]});
   addSupports(body, model, setup, scene, samples, out);
   const mechanics::VoxelMesh mesh(p.problem.body);
   p.problem.f_N = mechanics::NodalField::Zero(3, mesh.nodeCount());
@@ -300,7 +302,7 @@ ContactScene contactScene(const Body& body, const Model& model, const Setup& set
   }
   addFollowing(body, setup, shift_m, p);
   p.law = setup.kinematics == Kinematics::Linear ? mechanics::SolidLaw::Linear
-                                                  : setup.law.value_or(mechanics::SolidLaw::Polynomial);
+                                                 : setup.law.value_or(mechanics::SolidLaw::Polynomial);
   if (setup.capsule && setup.capsule->form == CapsuleForm::Membrane)
     p.skin = mechanics::Skin{1e3 * setup.capsule->tension_N_per_mm};
   else if (setup.capsule)

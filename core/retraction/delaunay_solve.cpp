@@ -31,7 +31,8 @@ anatomy::TetrahedraOptions optionsFor(const Setup& setup, const MechanicsScene& 
   for (const LoadSpec& load : setup.loads)
     if (const auto* r = std::get_if<Retractor>(&load); r && scene.contact) {
       const Eigen::Vector3d hoist = r->direction.normalized();
-      const Eigen::Vector3d half = 0.5 * r->length_mm * (r->patchAxis() - r->patchAxis().dot(hoist) * hoist).normalized();
+      const Eigen::Vector3d half =
+          0.5 * r->length_mm * (r->patchAxis() - r->patchAxis().dot(hoist) * hoist).normalized();
       o.tool = {{scene.contact->centre_mm - half, scene.contact->centre_mm + half}};
       o.toolCell_mm = std::min(o.cell_mm, setup.model.toolCell_mm);
       o.toolReach_mm = r->diameter_mm;

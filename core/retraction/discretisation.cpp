@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <sstream>
 
 #include "base/error.h"
@@ -243,8 +244,8 @@ Missed missed(const Model& model, const Setup& setup, const Result& result, cons
   const bool delaunay = setup.model.kind == ModelKind::FemTet && setup.model.delaunay;
   m.cell_mm = delaunay ? setup.model.cell_mm : model.youngs_kPa.grid.spacing_mm.maxCoeff();
   const bool thin = !delaunay && !result.contact && thinShare(model) > 0.5;
-  const bool split = voxels.model.kind == ModelKind::FemHex && setup.kinematics == Kinematics::Linear && !result.contact &&
-                     model.cells <= splitLimit && (thin || (!frames && !mergesExactly(model)));
+  const bool split = voxels.model.kind == ModelKind::FemHex && setup.kinematics == Kinematics::Linear &&
+                     !result.contact && model.cells <= splitLimit && (thin || (!frames && !mergesExactly(model)));
   if (thin && !split)
     throw BadInput("most of the body is at most " + std::to_string(fewCells) +
                    " cells thick, so that cells of twice the edge say nothing of its error; use smaller cells");
@@ -297,8 +298,8 @@ struct Places {
     all.insert(all.end(), landmarks_mm.begin(), landmarks_mm.end());
   }
   std::vector<double> ofCells(const std::vector<double>& l) const { return finite(l, 0, cells); }
-  /// Means (and the largest of the landmarks) where there is something to take them of. The tissue under a bar goes where
-  /// the bar goes, so its travel counts at the retractor where that differs by more.
+  /// Means (and the largest of the landmarks) where there is something to take them of. The tissue under a bar goes
+  /// where the bar goes, so its travel counts at the retractor where that differs by more.
   template <class Told>
   void tell(const std::vector<double>& l, double travel_mm, Told& told) const {
     if (const auto there = finite(l, cells, cells + contact); !there.empty())
@@ -310,16 +311,14 @@ struct Places {
   }
 };
 
-/// What `own` and the second answer miss apart from each other; adds a sentence to the note.
-std::optional<DiscretisationError::OfDifference> ofDifference(Missed own, const Model& model, const Setup& setup,
-                                                              const SecondAnswer& second, const Places& places,
-                                                              const Progress& progress, std::string& note) {
+/// What `own` and the second answer miss apart from each other; adds a sentence to the note. awaited: of the second
+/// answer; none where both are one.
+std::optional<DiscretisationError::OfDifference> ofDifference(Missed own, std::future<Missed>& awaited,
+                                                              const Places& places, std::string& note) {
   const std::string what = "; of the difference of the two stiffnesses ";
   Missed other;
   try {
-    other = second.model.youngs_kPa.values == model.youngs_kPa.values
-                ? own
-                : missed(second.model, setup, second.result, places.all, progress);
+    other = awaited.valid() ? awaited.get() : own;
   } catch (const Error& why) {
     if (dynamic_cast<const Cancelled*>(&why)) throw;
     note += what + "unknown: " + why.what();
@@ -357,7 +356,12 @@ DiscretisationError discretisationError(const retraction::Model& model, const re
       e.note = lockingNote(model, setup, result, places.all, progress);
       return e;
     }
-    const Missed own = missed(model, setup, result, places.all, progress.part(0.0, second ? 0.5 : 1.0));
+    // At once only in contact: factors are made by BLAS, whose threads are one setting for the whole process.
+    const std::launch when = result.contact ? std::launch::async : std::launch::deferred;
+    std::future<Missed> other;
+    if (second && second->model.youngs_kPa.values != model.youngs_kPa.values)
+      other = std::async(when, [&] { return missed(second->model, setup, second->result, places.all, progress); });
+    const Missed own = missed(model, setup, result, places.all, progress);
     e.cell_mm = own.cell_mm;
     e.coarse_mm = own.coarse_mm;
     const std::vector<double> all = lengths(own);
@@ -377,7 +381,7 @@ DiscretisationError discretisationError(const retraction::Model& model, const re
     if (e.vessels_mm) t << ", " << *e.vessels_mm << " mm at the vessels";
     t << " (cells of " << e.cell_mm << " mm against " << e.coarse_mm << " mm)";
     e.note = t.str();
-    if (second) e.difference = ofDifference(own, model, setup, *second, places, progress.part(0.5, 1.0), e.note);
+    if (second) e.difference = ofDifference(own, other, places, e.note);
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& why) {

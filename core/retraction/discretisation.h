@@ -19,14 +19,14 @@ struct DiscretisationError {
   /// what its travel is off by.
   std::optional<double> at_retractor_mm;
   std::optional<double> vessels_mm, vesselsMax_mm;  ///< over the landmarks: mean, largest
-  double cell_mm = 0.0, coarse_mm = 0.0;  ///< largest cell edge of the result's grid and of the other
-  std::string note;                       ///< in words, for reports
+  double cell_mm = 0.0, coarse_mm = 0.0;            ///< largest cell edge of the result's grid and of the other
+  std::string note;                                 ///< in words, for reports
 
   /// Of the difference of two answers, |error of the one − error of the other|: what their cells have in common
   /// cancels.
   struct OfDifference {
-    double mean_mm = 0.0;                   ///< over the cells
-    std::optional<double> at_retractor_mm;  ///< mean over the nodes of the contact
+    double mean_mm = 0.0;                             ///< over the cells
+    std::optional<double> at_retractor_mm;            ///< mean over the nodes of the contact
     std::optional<double> vessels_mm, vesselsMax_mm;  ///< over the landmarks: mean, largest
   };
   std::optional<OfDifference> difference;  ///< where there is a second answer, and its error is known

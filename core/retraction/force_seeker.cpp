@@ -17,8 +17,8 @@ constexpr double closeStep_mm = 0.5;   ///< by no more than this
 constexpr double unseen_mm = 6.0;      ///< way without a force that can be believed, at most
 constexpr double narrowest_mm = 2e-5;  ///< of a bracket
 constexpr double slipTravel_mm = 1e3 * ContactSolver::slipTravel_m;
-constexpr double edge = 0.02;          ///< of a bracket: no nearer to its ends
-constexpr double borne = 0.98;         ///< of the largest force met: what is taken to be borne on the way to it
+constexpr double edge = 0.02;   ///< of a bracket: no nearer to its ends
+constexpr double borne = 0.98;  ///< of the largest force met: what is taken to be borne on the way to it
 
 bool meets(double force_N, double asked_N) {
   return std::abs(force_N - asked_N) <= std::max(ForceSeeker::met * std::abs(asked_N), ForceSeeker::least_N);
@@ -26,7 +26,9 @@ bool meets(double force_N, double asked_N) {
 
 }  // namespace
 
-bool ForceSeeker::reached(double force_N) const { return nearest_ || meets(force_N, asked_N_); }
+bool ForceSeeker::reached(double force_N) const {
+  return nearest_ || meets(force_N, asked_N_);
+}
 
 void ForceSeeker::forget(const Seen& now) {
   *this = {};
@@ -83,8 +85,8 @@ double ForceSeeker::backFromSlip(const Seen& now) {
   return goal_mm_;
 }
 
-/// Between a smaller and a larger force: by the rise that was seen last, by the line between both, or in the middle where
-/// these have moved the same end again and again.
+/// Between a smaller and a larger force: by the rise that was seen last, by the line between both, or in the middle
+/// where these have moved the same end again and again.
 double ForceSeeker::within(const Seen& now) {
   constexpr int most = 4;
   if (!now.settled) return goal_mm_;
@@ -94,8 +96,9 @@ double ForceSeeker::within(const Seen& now) {
     return now.along_mm;
   }
   const double line_N_mm = (above_->force_N - below_->force_N) / width_mm;
-  double to_mm = rise_N_mm_ > softest_N_mm ? now.along_mm + (asked_N_ - now.force_N) / rise_N_mm_
-                                           : below_->along_mm + (asked_N_ - below_->force_N) / std::max(line_N_mm, 1e-12);
+  double to_mm = rise_N_mm_ > softest_N_mm
+                     ? now.along_mm + (asked_N_ - now.force_N) / rise_N_mm_
+                     : below_->along_mm + (asked_N_ - below_->force_N) / std::max(line_N_mm, 1e-12);
   if (std::abs(turns_) > most) to_mm = 0.5 * (below_->along_mm + above_->along_mm);
   return std::clamp(to_mm, below_->along_mm + edge * width_mm, above_->along_mm - edge * width_mm);
 }

@@ -5,8 +5,8 @@
 namespace glisson::retraction {
 
 /// Leads a bar, frame by frame, to the travel at which the liver bears a force. Goes by the rise of the force between
-/// states near equilibrium, never by the force itself, so that a bar that slips is met as one; once a smaller and a larger
-/// force were met, by the bracket of the two.
+/// states near equilibrium, never by the force itself, so that a bar that slips is met as one; once a smaller and a
+/// larger force were met, by the bracket of the two.
 class ForceSeeker {
  public:
   /// Bar and liver after a frame.
@@ -17,9 +17,9 @@ class ForceSeeker {
     bool settled = true;    ///< it is in equilibrium: the force is exact
   };
 
-  static constexpr double met = 3e-3;        ///< of the force asked for
-  static constexpr double least_N = 1e-3;    ///< what is told from no force, and from the force asked for
-  static constexpr double still_mm = 0.03;   ///< distance from equilibrium below which a liver is near it
+  static constexpr double met = 3e-3;       ///< of the force asked for
+  static constexpr double least_N = 1e-3;   ///< what is told from no force, and from the force asked for
+  static constexpr double still_mm = 0.03;  ///< distance from equilibrium below which a liver is near it
   static constexpr double farthest_mm = 200.0;
 
   /// Where the bar has to go next, mm along the hoist. Where it slips it stays.
@@ -39,9 +39,9 @@ class ForceSeeker {
   double backFromSlip(const Seen& now);
 
   double asked_N_ = 0.0;
-  Seen last_;                        ///< the last one near equilibrium
-  Seen best_;                        ///< largest force on the way, and where
-  double rise_N_mm_ = 0.0;           ///< of the force with travel between the last two near equilibrium
+  Seen last_;               ///< the last one near equilibrium
+  Seen best_;               ///< largest force on the way, and where
+  double rise_N_mm_ = 0.0;  ///< of the force with travel between the last two near equilibrium
   double goal_mm_ = 0.0, step_mm_ = 0.0;
   std::optional<Seen> below_, above_;  ///< settled, on either side of the force asked for
   int turns_ = 0;                      ///< how often the same end of the bracket was moved, signed

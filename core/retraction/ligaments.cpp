@@ -39,8 +39,9 @@ LigamentFibres ligamentOf(const Body& body, const SupportSpec& support) {
   }
   out.width_mm = (high - low).maxCoeff() / mmToM;
   out.estimated = !spec.stiffness_N_per_mm;
-  out.stiffness_N_per_mm = spec.stiffness_N_per_mm ? *spec.stiffness_N_per_mm
-                                                   : sheets * Capsule{}.tension_N_per_mm * out.width_mm / spec.length_mm;
+  out.stiffness_N_per_mm = spec.stiffness_N_per_mm
+                               ? *spec.stiffness_N_per_mm
+                               : sheets * Capsule{}.tension_N_per_mm * out.width_mm / spec.length_mm;
   for (const auto& [node, area] : area_m2) {
     mechanics::Tether t;
     t.p_m = body.mesh().position_m(node);

@@ -15,13 +15,13 @@ std::string nameOf(LigamentName name);  ///< as in scenes: "falciform", "left-tr
 struct LigamentFibres {
   LigamentName name = LigamentName::Other;
   double stiffness_N_per_mm = 0.0;
-  double width_mm = 0.0;   ///< longest side of its region across the fibres
-  bool estimated = false;  ///< the stiffness is not the scene's but made of width and length
+  double width_mm = 0.0;                  ///< longest side of its region across the fibres
+  bool estimated = false;                 ///< the stiffness is not the scene's but made of width and length
   std::vector<mechanics::Tether> fibres;  ///< one per node of the region
 };
 
-/// The ligaments of a scene, in the order of its supports. Throws BadInput where a region holds no surface, or looks into
-/// all directions alike and the scene does not say where the ligament springs from.
+/// The ligaments of a scene, in the order of its supports. Throws BadInput where a region holds no surface, or looks
+/// into all directions alike and the scene does not say where the ligament springs from.
 std::vector<LigamentFibres> ligamentsOf(const Body& body, const Setup& setup);
 
 /// A note for each ligament whose stiffness was estimated.

@@ -108,7 +108,8 @@ LinearGap linearGap(const Model& model, const Setup& setup, const Result& result
       break;  // a region or a support that larger cells do not have
     }
   }
-  // An answer of another mesh compresses these cells a little, which near incompressibility would count as much as a load.
+  // An answer of another mesh compresses these cells a little, which near incompressibility would count as much as a
+  // load.
   constexpr double carriedPoisson = 0.49;
   double& poisson = scene.problem.body.poisson;
   if (setup.model.kind != ModelKind::FemHex || body->mesh().nodeCount() != result.nodal_u_m.cols())

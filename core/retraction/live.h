@@ -29,7 +29,7 @@ struct LiveAnswer {
   Eigen::Vector3d tool_mm = Eigen::Vector3d::Zero();  ///< reached, from rest, LPS
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< of the tool on the liver, LPS
   double remaining_mm = 0.0;  ///< of the solver: estimated largest distance from the equilibrium of these very cells
-  bool atRest = true;                                 ///< what was asked for is reached: further frames change nothing
+  bool atRest = true;         ///< what was asked for is reached: further frames change nothing
   LiveOutcome outcome = LiveOutcome::Borne;
 };
 
@@ -39,8 +39,8 @@ class LiveRetraction {
   virtual ~LiveRetraction() = default;
 
   const Eigen::Vector3d& toolPoint_mm() const { return toolPoint_mm_; }  ///< of the contact at rest, LPS
-  /// The force of the scene itself: size and direction of the hoist. Where the scene gives the bar its travel: the liver's
-  /// weight under contact, else the force that the travel takes.
+  /// The force of the scene itself: size and direction of the hoist. Where the scene gives the bar its travel: the
+  /// liver's weight under contact, else the force that the travel takes.
   const Eigen::Vector3d& sceneForce_N() const { return sceneForce_N_; }
   /// What the scene itself asks of the tool: its force, or its travel.
   const LiveTarget& sceneTarget() const { return sceneTarget_; }
@@ -74,8 +74,8 @@ struct LiveLivers {
 };
 
 /// points_mm: watched points, LPS; one outside the body moves with what is nearest. A bar without a place is placed as
-/// for a run. Throws BadInput (no retractor in the scene, prescribed displacements with a patch, what the model refuses),
-/// SolverFailed, Cancelled.
+/// for a run. Throws BadInput (no retractor in the scene, prescribed displacements with a patch, what the model
+/// refuses), SolverFailed, Cancelled.
 LiveLivers makeLive(const Model& model, const Model* atlas, const Setup& setup,
                     const std::vector<Eigen::Vector3d>& points_mm, LiveKind kind, const Progress& progress = {});
 

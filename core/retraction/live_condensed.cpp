@@ -51,8 +51,9 @@ Eigen::RowVectorXd toolWeights(const MechanicsScene& scene, const Setup& setup, 
 
 }  // namespace
 
-CondensedRetraction::CondensedRetraction(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& points_mm,
-                               bool everyNode, const Progress& progress) {
+CondensedRetraction::CondensedRetraction(const Model& model, const Setup& setup,
+                                         const std::vector<Eigen::Vector3d>& points_mm, bool everyNode,
+                                         const Progress& progress) {
   const Body body(model);
   Setup still = withPatch(setup);
   still.analysis.dynamic = false;

@@ -53,9 +53,7 @@ LiveAnswer ContactRetraction::follow(const LiveTarget& target) {
   answer.remaining_mm = mmPerM * state.remaining_m;
   seen_ = {answer.tool_mm.dot(hoist_), answer.force_N.dot(hoist_), answer.remaining_mm < ForceSeeker::still_mm,
            state.atRest};
-  answer.outcome = state.cuts          ? LiveOutcome::Cuts
-                   : seeker_.slips() ? LiveOutcome::Slips
-                                     : LiveOutcome::Borne;
+  answer.outcome = state.cuts ? LiveOutcome::Cuts : seeker_.slips() ? LiveOutcome::Slips : LiveOutcome::Borne;
   const bool arrived = (answer.tool_mm - goal_mm).norm() < 1e-3;
   const bool meets = !target.force_N || answer.outcome != LiveOutcome::Borne || seeker_.reached(seen_.force_N);
   answer.atRest = state.atRest && arrived && meets;

@@ -22,9 +22,9 @@ class ContactRetraction : public LiveRetraction {
  private:
   std::optional<mechanics::ContactTracker> tracker_;
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  ///< of the grid, LPS
-  Eigen::Vector3d hoist_;      ///< unit, LPS
-  ForceSeeker seeker_;         ///< where a force leads the bar
-  ForceSeeker::Seen seen_;     ///< bar and liver after the last frame
+  Eigen::Vector3d hoist_;                               ///< unit, LPS
+  ForceSeeker seeker_;                                  ///< where a force leads the bar
+  ForceSeeker::Seen seen_;                              ///< bar and liver after the last frame
 };
 
 }  // namespace glisson::retraction

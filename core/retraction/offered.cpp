@@ -4,14 +4,10 @@ namespace glisson::retraction {
 
 std::string nameOf(RigidRefusal refusal) {
   switch (refusal) {
-    case RigidRefusal::Model:
-      return "model";
-    case RigidRefusal::TimeSteps:
-      return "time-steps";
-    case RigidRefusal::Condensed:
-      return "condensed";
-    case RigidRefusal::Corotational:
-      break;
+    case RigidRefusal::Model: return "model";
+    case RigidRefusal::TimeSteps: return "time-steps";
+    case RigidRefusal::Condensed: return "condensed";
+    case RigidRefusal::Corotational: break;
   }
   return "corotational";
 }
@@ -20,12 +16,9 @@ std::string inWords(RigidRefusal refusal, const Setup& setup) {
   switch (refusal) {
     case RigidRefusal::Model:
       return setup.model.kind == ModelKind::FemTet ? "tetrahedra (model \"fem-tet\")" : "the model \"meshfree\"";
-    case RigidRefusal::TimeSteps:
-      return "the dynamic analysis";
-    case RigidRefusal::Condensed:
-      return "the solver \"condensed\"";
-    case RigidRefusal::Corotational:
-      break;
+    case RigidRefusal::TimeSteps: return "the dynamic analysis";
+    case RigidRefusal::Condensed: return "the solver \"condensed\"";
+    case RigidRefusal::Corotational: break;
   }
   return "corotational kinematics";
 }
@@ -42,12 +35,9 @@ std::string wayToLargeDeformation(const Setup& setup) {
                              : "choose \"kinematics\": \"corotational\" or \"hyperelastic\"";
   const std::string then = ", which offers large deformation (\"kinematics\": \"hyperelastic\")";
   switch (*refusal) {
-    case RigidRefusal::Model:
-      return "take the model \"fem-hex\"" + then;
-    case RigidRefusal::TimeSteps:
-      return "take the static analysis" + then;
-    default:
-      return "take the solver \"auto\"" + then;
+    case RigidRefusal::Model: return "take the model \"fem-hex\"" + then;
+    case RigidRefusal::TimeSteps: return "take the static analysis" + then;
+    default: return "take the solver \"auto\"" + then;
   }
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <future>
 
 #include "base/error.h"
 #include "retraction/pose.h"
@@ -6,6 +7,27 @@
 #include "retraction/smooth_body.h"
 
 namespace glisson::retraction {
+
+namespace {
+
+constexpr double proof = 1.1;  ///< of the force
+
+/// The share of the force (or travel) asked for that a bar bears there on the path's cells, `proof` at most.
+double borne(const Model& model, const Setup& setup, const Retractor& bar, const Progress& progress) {
+  const Body body(model);
+  const ContactScene contact = contactScene(body, model, setup, toMechanics(body, model, setup), bar);
+  mechanics::ContactOptions options;
+  options.pathOnly = true;
+  options.proof = proof;
+  options.tolerance = 1e-2;
+  const mechanics::ContactSolution s = mechanics::solveContact(contact.problem, options, progress);
+  if (s.outcome == mechanics::ContactOutcome::Reached) return proof;
+  const double asked = contact.problem.force_N ? proof * *contact.problem.force_N : 0;
+  const double share = asked > 0 ? s.capacity_N / asked : s.travel_m / *contact.problem.travel_m;
+  return proof * std::min(share, 1.0);
+}
+
+}  // namespace
 
 PlacedBar placeBar(const Model& model, const Model* other, const Setup& setup, const Progress& progress) {
   std::optional<Retractor> bar = rigidBarOf(setup);
@@ -18,7 +40,7 @@ PlacedBar placeBar(const Model& model, const Model* other, const Setup& setup, c
     placed.bar.axis = bar->patchAxis();
     return placed;
   }
-  const mechanics::TriangleSurface surface = model.smooth->surface();
+  const mechanics::TriangleSurface& surface = model.smooth->surface();
   const auto at = [&](const Pose& pose) {
     Retractor r = *bar;
     r.at_mm = pose.centre_mm;
@@ -30,26 +52,15 @@ PlacedBar placeBar(const Model& model, const Model* other, const Setup& setup, c
     placed.bar = at(*placed.pose);
     return placed;
   }
-  constexpr double proof = 1.1;
   constexpr std::size_t most = 6;  // places tried
   const std::vector<Pose> candidates = poseCandidates(*model.smooth, surface, *bar);
   double best = -1;
   for (std::size_t i = 0; i < std::min(most, candidates.size()); ++i) {
     const Retractor r = at(candidates[i]);
-    double least = 1e9;
-    for (const Model* m : {&model, other}) {
-      if (m == nullptr || (m == other && least < 1)) continue;
-      const Body body(*m);
-      const ContactScene contact = contactScene(body, *m, setup, toMechanics(body, *m, setup), r);
-      mechanics::ContactOptions options;
-      options.pathOnly = true;
-      options.proof = proof;
-      options.tolerance = 1e-2;
-      const mechanics::ContactSolution s = mechanics::solveContact(contact.problem, options, progress);
-      const double asked = contact.problem.force_N ? proof * *contact.problem.force_N : 0;
-      const double share = asked > 0 ? s.capacity_N / asked : s.travel_m / *contact.problem.travel_m;
-      least = std::min(least, s.outcome == mechanics::ContactOutcome::Reached ? proof : proof * std::min(share, 1.0));
-    }
+    std::future<double> second;
+    if (other) second = std::async(std::launch::async, [&] { return borne(*other, setup, r, progress); });
+    double least = borne(model, setup, r, progress);
+    if (other) least = std::min(least, second.get());
     placed.tried.push_back({candidates[i].height_mm, least});
     if (least > best) {
       best = least;

@@ -16,14 +16,10 @@ constexpr double nothing = 1e-6;  ///< of the force asked for
 /// What is offered in place of what refuses.
 const char* offeredFor(RigidRefusal refusal) {
   switch (refusal) {
-    case RigidRefusal::Model:
-      return "the model \"fem-hex\"";
-    case RigidRefusal::TimeSteps:
-      return "the static analysis";
-    case RigidRefusal::Condensed:
-      return "solvers other than \"condensed\"";
-    case RigidRefusal::Corotational:
-      break;
+    case RigidRefusal::Model: return "the model \"fem-hex\"";
+    case RigidRefusal::TimeSteps: return "the static analysis";
+    case RigidRefusal::Condensed: return "solvers other than \"condensed\"";
+    case RigidRefusal::Corotational: break;
   }
   return "kinematics \"hyperelastic\", \"linear\" or \"auto\"";
 }
@@ -59,8 +55,14 @@ bool wantsRigidBar(const Setup& setup) {
   }
 }
 
+bool isOneSided(const SupportSpec& s) {
+  return s.kind == SupportSpec::Kind::Ligament || (s.kind == SupportSpec::Kind::Spring && s.unilateral);
+}
+
 bool inLargeDeformation(const Setup& setup) {
-  return setup.kinematics == Kinematics::Hyperelastic || rigidBarOf(setup).has_value();
+  return setup.kinematics == Kinematics::Hyperelastic || rigidBarOf(setup).has_value() ||
+         (setup.kinematics == Kinematics::Auto && !rigidRefusal(setup) &&
+          std::any_of(setup.supports.begin(), setup.supports.end(), isOneSided));
 }
 
 LargeDeformationAnswer solveWithoutBar(const Body& body, const Setup& setup, const MechanicsScene& scene,
@@ -73,6 +75,7 @@ LargeDeformationAnswer solveWithoutBar(const Body& body, const Setup& setup, con
   const std::vector<LigamentFibres> ligaments = ligamentsOf(body, setup);
   answer.ligaments = pullsOf(body, ligaments, s.tether_N);
   answer.diagnostics = estimatesOf(ligaments);
+  answer.loadsBorne = s.outcome != mechanics::ContactOutcome::LoadsNotBorne;
   answer.solution = std::move(s.solution);
   return answer;
 }
@@ -82,7 +85,8 @@ mechanics::NodalField onModelNodes(const Body& body, const ContactScene& scene, 
   const int count = body.mesh().nodeCount();
   mechanics::NodalField u = mechanics::NodalField::Zero(3, count);
   for (int node = 0; node < count; ++node)
-    if (const int best = detail::nodeNear(mesh, body.mesh().latticeOf(node) + scene.layers); best >= 0) u.col(node) = u_m.col(best);
+    if (const int best = detail::nodeNear(mesh, body.mesh().latticeOf(node) + scene.layers); best >= 0)
+      u.col(node) = u_m.col(best);
   return u;
 }
 
@@ -94,6 +98,7 @@ RigidContact toRetraction(const Body& body, const ContactScene& scene, const mec
   RigidContact c;
   c.travel_mm = 1e3 * s.travel_m;
   c.capacity_N = s.capacity_N;
+  c.capacityAt_mm = 1e3 * s.capacity_m;
   c.capacityExceeded = s.capacityExceeded;
   c.outcome = s.outcome;
   c.asked_N = scene.problem.force_N.value_or(0.0);
@@ -107,13 +112,14 @@ RigidContact toRetraction(const Body& body, const ContactScene& scene, const mec
   c.smallestJ = s.smallestJ;
   for (const Eigen::Vector3d& p : s.bar.centreline_m) c.bar_mm.push_back(body.toLps_mm(p - shift_m));
   c.barRadius_mm = 1e3 * s.bar.radius_m;
-  c.moved_mm = 1e3 * (s.bar.centre_m() - scene.problem.bar->centre_m()).dot(s.bar.hoist) - barBehind_mm + c.barRadius_mm +
-               1e3 * s.touch_m;
+  c.moved_mm = 1e3 * (s.bar.centre_m() - scene.problem.bar->centre_m()).dot(s.bar.hoist) - barBehind_mm +
+               c.barRadius_mm + 1e3 * s.touch_m;
   c.hoist = vector(s.bar.hoist);
   for (const mechanics::PathStep& step : s.path) c.path.push_back({1e3 * step.travel_m, step.force_N});
-  if (const std::optional<double> most_N = passedOnTheWay_N(c)) {
+  if (const std::optional<std::array<double, 2>> most = passedOnTheWay(c)) {
     c.capacityExceeded = true;
-    c.capacity_N = *most_N;
+    c.capacityAt_mm = (*most)[0];
+    c.capacity_N = (*most)[1];
   }
   c.sample_mm = scene.sample_mm;
   c.cut_u_m = s.solution.u_m;
@@ -153,7 +159,8 @@ RigidContactAnswer solveRigidContact(const Body& body, const Model& model, const
   if (s.outcome == mechanics::ContactOutcome::Slips && contact.problem.force_N &&
       s.capacity_N < nothing * *contact.problem.force_N)
     throw BadInput(
-        "nothing resists the bar: along its hoist the body moves freely, as ligaments are slack or nothing holds it; add "
+        "nothing resists the bar: along its hoist the body moves freely, as ligaments are slack or nothing holds it; "
+        "add "
         "supports that pull as well, or hoist the other way");
   RigidContactAnswer answer;
   answer.dofs = static_cast<int>(3 * s.solution.u_m.cols());

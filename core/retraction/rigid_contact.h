@@ -10,8 +10,8 @@
 
 namespace glisson::retraction {
 
-/// What of a scene does not offer a rigid bar: its model (other than voxel hexahedra), time steps, the condensed solver,
-/// corotational kinematics.
+/// What of a scene does not offer a rigid bar: its model (other than voxel hexahedra), time steps, the condensed
+/// solver, corotational kinematics.
 enum class RigidRefusal { Model, TimeSteps, Condensed, Corotational };
 
 /// The first of them that the setup has; nothing where a rigid bar is offered.
@@ -23,8 +23,8 @@ std::optional<Retractor> rigidBarOf(const Setup& setup);
 /// Whether it is to be one, offered or not.
 bool wantsRigidBar(const Setup& setup);
 
-/// The scene as a contact problem: cells weighted with their covered fraction, the smooth surface's samples, springs and
-/// capsule on it, the bar behind its place. A box, and a model without smooth body, is its cells.
+/// The scene as a contact problem: cells weighted with their covered fraction, the smooth surface's samples, springs
+/// and capsule on it, the bar behind its place. A box, and a model without smooth body, is its cells.
 struct ContactScene {
   mechanics::ContactProblem problem;
   Eigen::Vector3i layers = Eigen::Vector3i::Zero();  ///< of cells added before the model's grid
@@ -57,7 +57,12 @@ PlacedBar placeBar(const Model& model, const Model* other, const Setup& setup, c
 mechanics::ContactProblem withoutBar(const Body& body, const Setup& setup, const MechanicsScene& scene);
 
 /// True where the scene is solved by mechanics::solveContact: pressures may follow their faces, springs press only.
+/// With automatic kinematics: where a bar is rigid, or where a support acts one way only and large deformation is
+/// offered.
 bool inLargeDeformation(const Setup& setup);
+
+/// A support that acts one way only, which linear theory does not have: a ligament, or a spring that only presses.
+bool isOneSided(const SupportSpec& support);
 
 /// An answer on the nodes of the model's own cells.
 struct LargeDeformationAnswer {
@@ -65,6 +70,7 @@ struct LargeDeformationAnswer {
   Eigen::Vector3d following_N = Eigen::Vector3d::Zero();  ///< sum of the loads that follow their faces, LPS
   std::vector<LigamentPull> ligaments;
   Diagnostics diagnostics;
+  bool loadsBorne = true;  ///< false: no equilibrium under the loads, however small their steps
 };
 LargeDeformationAnswer solveWithoutBar(const Body& body, const Setup& setup, const MechanicsScene& scene,
                                        double tolerance, const Progress& progress);

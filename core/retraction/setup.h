@@ -46,13 +46,14 @@ using Region = std::variant<FaceRegion, SurfaceRegion, BoxRegion, PlaneRegion, M
 enum class LigamentName { Falciform, Coronary, LeftTriangular, RightTriangular, Other };
 struct LigamentSpec {
   LigamentName name = LigamentName::Other;
-  /// Of the whole ligament along its fibres. Empty: two sheets of peritoneum, each as stiff as the capsule of which it is
-  /// a part (Capsule::tension_N_per_mm), over the width of the region and the length of the fibres.
+  /// Of the whole ligament along its fibres. Empty: two sheets of peritoneum, each as stiff as the capsule of which it
+  /// is a part (Capsule::tension_N_per_mm), over the width of the region and the length of the fibres.
   std::optional<double> stiffness_N_per_mm;
   double length_mm = 0.0;  ///< of its fibres, from the liver to where they spring from
   double slack_mm = 0.0;   ///< by which they lengthen before they pull
-  std::optional<Eigen::Vector3d> towards;  ///< unit, LPS, to where they spring from; empty: the region's mean outward normal
-  bool twoSided = false;   ///< pushes as well
+  std::optional<Eigen::Vector3d>
+      towards;            ///< unit, LPS, to where they spring from; empty: the region's mean outward normal
+  bool twoSided = false;  ///< pushes as well
   static constexpr double falciformLength_mm = 30.0, otherLength_mm = 15.0;  ///< defaults; our own estimates
 };
 
@@ -80,7 +81,7 @@ struct Pressure {
   Region region;
   double kPa;
   bool follows = false;  ///< large deformation: stays normal to the deformed faces and grows with them
-};  ///< positive pushes against the outward normal
+};                       ///< positive pushes against the outward normal
 /// How the bar meets the liver. Rigid: a body of its own that pushes and does not pull, without friction. Patch: its
 /// force spread over the surface at rest.
 enum class ContactKind { Rigid, Patch };
@@ -102,7 +103,7 @@ struct Retractor {
   std::optional<Eigen::Vector3d> axis;  ///< of the bar, LPS; empty: from geometry (a rigid bar), x (a patch)
   /// Empty, as a scene that does not say it has it: rigid where model and analysis offer it, else patch.
   std::optional<ContactKind> contact = ContactKind::Patch;
-  std::optional<double> travel_mm;      ///< the bar's way from its first touch, instead of a force
+  std::optional<double> travel_mm;  ///< the bar's way from its first touch, instead of a force
   BarShape shape = BarShape::Straight;
 
   Eigen::Vector3d patchAxis() const { return axis.value_or(Eigen::Vector3d(1, 0, 0)); }
@@ -124,7 +125,7 @@ struct AnalysisSpec {
   double h_ms = 1.0;
   double end_s = 2.0;
   mechanics::TimeScheme scheme = mechanics::TimeScheme::ImplicitEuler;
-  double spectralRadius = 0.8;  ///< of generalised alpha
+  double spectralRadius = 0.8;                  ///< of generalised alpha
   std::array<double, 2> rayleigh = {0.0, 0.0};  ///< alpha 1/s, beta s
   double stopWhenSteady = 1e-6;  ///< relative unbalance and motion per step at rest (mechanics::isAtRest); 0 = never
 };
@@ -132,15 +133,16 @@ struct AnalysisSpec {
 /// How strain follows from displacement. Auto: linear where that is right to 0.2 mm, else hyperelastic.
 enum class Kinematics { Linear, Corotational, Hyperelastic, Auto };
 
-/// How the capsule is borne. Cells: by a layer of 3 mm below the surface, in all directions, whatever the cells. Membrane: in the
-/// plane of the surface, and in tension only; cells of a few millimetres then fold one by one under a bar, where the
-/// true capsule wrinkles finer than they are, so that soft livers take many more iterations or find no answer.
+/// How the capsule is borne. Cells: by a layer of 3 mm below the surface, in all directions, whatever the cells.
+/// Membrane: in the plane of the surface, and in tension only; cells of a few millimetres then fold one by one under a
+/// bar, where the true capsule wrinkles finer than they are, so that soft livers take many more iterations or find no
+/// answer.
 enum class CapsuleForm { Cells, Membrane };
 
 /// Glisson's capsule: stiff skin of the liver.
 struct Capsule {
-  /// Young's modulus times thickness. Default: porcine capsule, 8.2 MPa at small strain [umale2011characterization] times
-  /// 30 µm, the lower end of 50 to 90 µm, as its curve is J-shaped.
+  /// Young's modulus times thickness. Default: porcine capsule, 8.2 MPa at small strain [umale2011characterization]
+  /// times 30 µm, the lower end of 50 to 90 µm, as its curve is J-shaped.
   double tension_N_per_mm = 0.25;
   CapsuleForm form = CapsuleForm::Cells;
 };
@@ -167,8 +169,8 @@ struct Setup {
 /// nodes (matrices, condensed responses, other programs). A bar that is given its travel takes the liver's weight.
 Setup withPatch(Setup setup);
 
-/// withPatch, and without what no other program's files can say: ligaments are left out, springs that only press pull as
-/// well, loads do not follow their faces.
+/// withPatch, and without what no other program's files can say: ligaments are left out, springs that only press pull
+/// as well, loads do not follow their faces.
 Setup exportable(Setup setup);
 /// What of a scene `exportable` changes.
 Diagnostics notExportable(const Setup& setup);

@@ -37,6 +37,7 @@ struct Answer {
   std::optional<RigidContact> contact;
   Eigen::Vector3d following_N = Eigen::Vector3d::Zero();  ///< LPS
   std::vector<LigamentPull> ligaments;
+  bool loadsBorne = true;
   bool useless = false;             ///< the model cannot deform as this body does
   std::vector<std::string> limits;  ///< what the mesh-free model could not give as asked for
 
@@ -45,6 +46,7 @@ struct Answer {
     following_N = large.following_N;
     ligaments = std::move(large.ligaments);
     diagnostics.add(large.diagnostics);
+    loadsBorne = large.loadsBorne;
   }
 };
 
@@ -209,11 +211,16 @@ std::string askedOf(const RigidContact& c) {
   return t.str();
 }
 
+void tellLoadsNotBorne(const std::string& stiffness, Result& r) {
+  r.doubt(DiagnosticCode::LoadsNotBorne,
+          {{"stiffness", stiffness}, {"residual", r.solver.residual}, {"tolerance", r.solver.tolerance}});
+}
+
 /// The bar did not get to what was asked for, or only behind a limit: says so. False where there is nothing to say.
 bool doubtOfBar(const RigidContact& c, const std::string& stiffness, Result& r) {
   const auto failed = [&](DiagnosticCode code) {
     r.doubt(code, {{"capacity_N", c.capacity_N},
-                   {"capacity_travel_mm", travelAtCapacity(c)},
+                   {"capacity_travel_mm", c.capacityAt_mm},
                    {"travel_mm", c.travel_mm},
                    {"stiffness", stiffness},
                    {"asked", askedOf(c)},
@@ -222,26 +229,18 @@ bool doubtOfBar(const RigidContact& c, const std::string& stiffness, Result& r) 
     return true;
   };
   switch (c.outcome) {
-    case mechanics::ContactOutcome::Slips:
-      return failed(DiagnosticCode::RetractorSlips);
-    case mechanics::ContactOutcome::Folds:
-      return failed(DiagnosticCode::RetractorFolds);
-    case mechanics::ContactOutcome::Cuts:
-      return failed(DiagnosticCode::RetractorCuts);
-    case mechanics::ContactOutcome::LoadsNotBorne:
-      r.doubt(DiagnosticCode::LoadsNotBorne, {{"stiffness", stiffness},
-                                              {"residual", r.solver.residual},
-                                              {"tolerance", r.solver.tolerance}});
-      return true;
+    case mechanics::ContactOutcome::Slips: return failed(DiagnosticCode::RetractorSlips);
+    case mechanics::ContactOutcome::Folds: return failed(DiagnosticCode::RetractorFolds);
+    case mechanics::ContactOutcome::Cuts: return failed(DiagnosticCode::RetractorCuts);
+    case mechanics::ContactOutcome::LoadsNotBorne: tellLoadsNotBorne(stiffness, r); return true;
     case mechanics::ContactOutcome::Reached:
-      if (const std::optional<double> most_N = passedOnTheWay_N(c)) {
+      if (const std::optional<std::array<double, 2>> most = passedOnTheWay(c)) {
         r.doubt(DiagnosticCode::RetractorPastLimit,
-                {{"force_N", c.force_N.dot(c.hoist)}, {"capacity_N", *most_N}, {"stiffness", stiffness}});
+                {{"force_N", c.force_N.dot(c.hoist)}, {"capacity_N", (*most)[1]}, {"stiffness", stiffness}});
         return true;
       }
       return false;
-    case mechanics::ContactOutcome::Stopped:
-      return false;
+    case mechanics::ContactOutcome::Stopped: return false;
   }
   return false;
 }
@@ -276,7 +275,7 @@ mechanics::DeformationSummary measured(const Model& model, const Body& body, con
 }
 
 /// The verdict and its reasons.
-void judge(const Model& model, const Body& body, const mechanics::Solution& s, Result& r) {
+void judge(const Model& model, const Body& body, const mechanics::Solution& s, bool loadsBorne, Result& r) {
   constexpr double corotationalStrain = 0.10;
   const bool linear = r.kinematics == Kinematics::Linear, converged = s.report.converged();
   mechanics::DeformationSummary judged = measured(model, body, s.u_m, r);
@@ -284,10 +283,13 @@ void judge(const Model& model, const Body& body, const mechanics::Solution& s, R
   const mechanics::Validity validity = mechanics::validity(body.mesh(), judged);
   const bool folded = r.contact && !(r.contact->smallestJ > 0);
   const bool said = r.contact && doubtOfBar(*r.contact, model.stiffness, r);
-  if (!converged && !said)
+  if (!converged && !loadsBorne && !said)
+    tellLoadsNotBorne(model.stiffness, r);
+  else if (!converged && !said)
     r.doubt(DiagnosticCode::NotConverged,
             {{"stiffness", model.stiffness},
-             {"status", mechanics::describe(s.report.status) + (linear || s.report.why.empty() ? "" : " (" + s.report.why + ")")}});
+             {"status", mechanics::describe(s.report.status) +
+                            (linear || s.report.why.empty() ? "" : " (" + s.report.why + ")")}});
   r.linearTrusted = validity.linearTrusted && converged;
   r.drawable = converged && !validity.invalid;
   if (r.contact && !linear) {
@@ -349,7 +351,7 @@ Result readBack(const Model& model, const Body& body, const MechanicsScene& scen
     r.retractorPoint_mm = middle + r.contact->barRadius_mm * r.contact->hoist;
     r.contactArea_mm2 = r.contact->footprint_mm2;
   }
-  judge(model, body, s, r);
+  judge(model, body, s, answer.loadsBorne, r);
   for (const std::string& limit : answer.limits) r.doubt(DiagnosticCode::MeshfreeLimited, {{"limit", limit}});
   if (answer.useless) r.drawable = r.linearTrusted = false;
   if (scene.contact) {
@@ -389,7 +391,8 @@ Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen:
     return readBack(model, body, scene, used, std::move(answer), probes_mm);
   }
   Setup used = setup;
-  if (used.kinematics == Kinematics::Auto) used.kinematics = Kinematics::Linear;
+  if (used.kinematics == Kinematics::Auto)
+    used.kinematics = inLargeDeformation(setup) ? Kinematics::Hyperelastic : Kinematics::Linear;
   return readBack(model, body, scene, used, solve(model, body, scene, used, progress), probes_mm);
 }
 

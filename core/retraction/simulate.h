@@ -42,21 +42,22 @@ Model makeModel(image::ScalarVolume youngs_kPa, double poisson, Density density,
 /// What the rigid bar and the liver do to each other at the end, mm, N, kPa, LPS.
 struct RigidContact {
   mechanics::ContactOutcome outcome = mechanics::ContactOutcome::Reached;
-  double travel_mm = 0.0;             ///< of the bar from its first force, along the hoist
-  double capacity_N = 0.0;            ///< largest force met on the way; at which travel: travelAtCapacity
-  bool capacityExceeded = false;      ///< the force fell beyond it
-  double asked_N = 0.0;               ///< force asked for; 0 where the travel was
-  double asked_mm = 0.0;              ///< travel asked for; 0 where the force was
-  double moved_mm = 0.0;              ///< along the hoist, from the place given to the first touch
+  double travel_mm = 0.0;                               ///< of the bar from its first force, along the hoist
+  double capacity_N = 0.0;                              ///< largest force met on the way
+  double capacityAt_mm = 0.0;                           ///< travel at which it was met
+  bool capacityExceeded = false;                        ///< the force fell beyond it
+  double asked_N = 0.0;                                 ///< force asked for; 0 where the travel was
+  double asked_mm = 0.0;                                ///< travel asked for; 0 where the force was
+  double moved_mm = 0.0;                                ///< along the hoist, from the place given to the first touch
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();    ///< of the bar on the liver
   Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();  ///< about the bar's centre
   double area_mm2 = 0.0, footprint_mm2 = 0.0;  ///< of the surface that touches: as it is, and seen along the hoist
   double pressureMax_kPa = 0.0, penetrationMax_mm = 0.0;
-  double smallestJ = 1.0;  ///< least volume ratio of a cell
-  std::vector<Eigen::Vector3d> bar_mm;               ///< centre line at travel 0; of a hook in chords
+  double smallestJ = 1.0;               ///< least volume ratio of a cell
+  std::vector<Eigen::Vector3d> bar_mm;  ///< centre line at travel 0; of a hook in chords
   double barRadius_mm = 0.0;
-  Eigen::Vector3d hoist = Eigen::Vector3d::Zero();   ///< unit, LPS
-  std::vector<std::array<double, 2>> path;           ///< travel mm, force N
+  Eigen::Vector3d hoist = Eigen::Vector3d::Zero();  ///< unit, LPS
+  std::vector<std::array<double, 2>> path;          ///< travel mm, force N
   /// Samples of the smooth surface: place at rest, displacement, area, pressure, one entry each.
   std::vector<Eigen::Vector3d> sample_mm, sample_u_mm;
   std::vector<double> sample_mm2, pressure_kPa;
@@ -117,8 +118,8 @@ struct Result {
 /// Builds the mechanics problem (the one crossing from mm and kPa to SI) and solves it.
 /// Corotational and hyperelastic kinematics: static, voxel hexahedra. Tetrahedra: static, linear; dofs are those of the
 /// tetrahedra, body forces are consistent with them, all other loads act at the voxel corners.
-/// A retractor with rigid contact: static, voxel hexahedra, linear or hyperelastic; kinematics Auto are hyperelastic there.
-/// Throws BadInput (no support, no contact, unknown region, a model that does not offer what is asked for),
+/// A retractor with rigid contact: static, voxel hexahedra, linear or hyperelastic; kinematics Auto are hyperelastic
+/// there. Throws BadInput (no support, no contact, unknown region, a model that does not offer what is asked for),
 /// SolverFailed where a condensed column does not converge; else the status is in the result.
 Result simulate(const Model& model, const Setup& setup, const std::vector<Eigen::Vector3d>& probes_mm,
                 const Progress& progress = {});

@@ -250,12 +250,9 @@ class CellCover {
   float of(const Eigen::Vector3d& cell) const {
     const Eigen::Vector3d centre = columns_ * cell + offset_;
     switch (around(centre)) {
-      case Around::Outside:
-        return 0.0f;
-      case Around::Inside:
-        return 1.0f;
-      case Around::Both:
-        break;
+      case Around::Outside: return 0.0f;
+      case Around::Inside: return 1.0f;
+      case Around::Both: break;
     }
     int inside = 0;
     for (const Eigen::Vector3f& sample : samples_) {
@@ -327,6 +324,8 @@ Eigen::Vector3d SmoothBody::gradient(const Eigen::Vector3d& p_lps_mm) const {
 }
 
 image::ScalarVolume SmoothBody::fractions(const image::Grid& cells) const {
+  const std::lock_guard guard(made_->lock);
+  if (!made_->fractions.values.empty() && made_->cells.sameGeometry(cells)) return made_->fractions;
   image::Grid grid = cells;
   const Eigen::AlignedBox3d box = extentIn(cells, field_, level_);
   const Eigen::Vector3d outer = cells.size.cast<double>() - Eigen::Vector3d::Constant(0.5);
@@ -346,12 +345,20 @@ image::ScalarVolume SmoothBody::fractions(const image::Grid& cells) const {
       for (int j = 0; j < grid.size.y(); ++j)
         for (int i = 0; i < grid.size.x(); ++i) result.at(i, j, k) = cover.of(Eigen::Vector3d(i, j, k));
   });
+  made_->cells = cells;
+  made_->fractions = result;
   return result;
+}
+
+const mechanics::TriangleSurface& SmoothBody::surface() const {
+  const std::lock_guard guard(made_->lock);
+  if (!made_->surface) made_->surface = largestShell(marchingTetrahedra(field_, level_));
+  return *made_->surface;
 }
 
 mechanics::TriangleSurface SmoothBody::surface(double spacing_mm) const {
   if (!(spacing_mm > 0.0)) throw BadArgument("SmoothBody::surface: the spacing must be positive");
-  if (spacing_mm == cube_mm) return largestShell(marchingTetrahedra(field_, level_));
+  if (spacing_mm == cube_mm) return surface();
   image::Grid grid = field_.grid;
   const Eigen::Vector3d extent_mm = (grid.size - Eigen::Vector3i::Ones()).cast<double>() * cube_mm;
   grid.spacing_mm.setConstant(spacing_mm);

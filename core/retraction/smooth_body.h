@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <mutex>
+#include <optional>
 
 #include "image/volume.h"
 #include "mechanics/contact/triangle_surface.h"
@@ -35,15 +38,27 @@ class SmoothBody {
   const image::Grid& grid() const { return field_.grid; }  ///< of the field; its axes are the mask's
 
   /// Covered fraction of every cell, 0 to 1, by 4 x 4 x 4 points in each. Where the body reaches beyond the grid, the
-  /// result's grid is larger by as many layers of cells on every side as the body needs. Any axes and spacing.
+  /// result's grid is larger by as many layers of cells on every side as the body needs. Any axes and spacing. Kept for
+  /// the last grid: several solves of one model ask for the same.
   image::ScalarVolume fractions(const image::Grid& cells) const;
 
-  /// Closed surface of the body, outward oriented, vertices in mm (LPS), by marching tetrahedra on cubes of this edge;
-  /// walls of cavities are left out. No triangle is degenerate. Throws BadArgument where the spacing is not positive.
-  mechanics::TriangleSurface surface(double spacing_mm = cube_mm) const;
+  /// Closed surface of the body, outward oriented, vertices in mm (LPS), by marching tetrahedra on the field's cubes;
+  /// walls of cavities are left out. No triangle is degenerate. Made once, when it is first asked for.
+  const mechanics::TriangleSurface& surface() const;
+  /// The same on cubes of another edge. Throws BadArgument where the spacing is not positive.
+  mechanics::TriangleSurface surface(double spacing_mm) const;
 
  private:
+  /// What is made when first asked for, by any thread; copies of the body share it.
+  struct Made {
+    std::mutex lock;
+    std::optional<mechanics::TriangleSurface> surface;
+    image::Grid cells;
+    image::ScalarVolume fractions;  ///< of these cells; empty at first
+  };
+
   image::ScalarVolume field_;
+  std::shared_ptr<Made> made_ = std::make_shared<Made>();
   double level_ = 0.5;
   double volume_mm3_ = 0.0;
   double leftOut_mm3_ = 0.0;

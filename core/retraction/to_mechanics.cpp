@@ -106,15 +106,16 @@ struct LoadBuilder {
   const Model& model;
   std::optional<Contact>& contact;
   bool rigid;
-  bool large;         ///< solved in large deformation: what follows is no dead load
+  bool large;  ///< solved in large deformation: what follows is no dead load
   bool corotational;
 
   std::vector<FaceTraction> operator()(const BodyForce&) const { return {}; }
   /// True where the contact solver lets a load follow its faces.
   bool following(bool follows) const {
     if (follows && corotational)
-      throw BadInput("a load that follows its faces is offered for kinematics \"hyperelastic\": choose these, or leave "
-                     "\"follows\" out");
+      throw BadInput(
+          "a load that follows its faces is offered for kinematics \"hyperelastic\": choose these, or leave "
+          "\"follows\" out");
     return follows && large;
   }
   std::vector<FaceTraction> operator()(const Traction& load) const {
@@ -134,8 +135,7 @@ struct LoadBuilder {
   std::vector<FaceTraction> operator()(const Retractor& load) const {
     requireSensible(load);
     if (rigid) return {};  // the bar is no load: the contact solver moves it
-    const Eigen::Vector3d at_mm =
-        load.at_mm ? *load.at_mm : defaultHoistPoint(body, model, load);
+    const Eigen::Vector3d at_mm = load.at_mm ? *load.at_mm : defaultHoistPoint(body, model, load);
     contact = findContact(body, load, at_mm);
     const double force_N = load.force_N ? *load.force_N : model.mass_kg * defaults::gravity_m_s2;
     const Eigen::Vector3d local_N = body.vectorToLocal(force_N * load.direction.normalized());
@@ -176,15 +176,12 @@ Setup withPatch(Setup setup) {
       bar->travel_mm.reset();
       bar->shape = BarShape::Straight;
     }
-  if (setup.kinematics == Kinematics::Auto) setup.kinematics = Kinematics::Linear;
+  if (setup.kinematics == Kinematics::Auto)
+    setup.kinematics = inLargeDeformation(setup) ? Kinematics::Hyperelastic : Kinematics::Linear;
   return setup;
 }
 
 namespace {
-
-bool isOneSided(const SupportSpec& s) {
-  return s.kind == SupportSpec::Kind::Ligament || (s.kind == SupportSpec::Kind::Spring && s.unilateral);
-}
 
 bool followsFaces(const LoadSpec& load) {
   const auto* pressure = std::get_if<Pressure>(&load);
@@ -234,11 +231,12 @@ MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& se
   std::vector<mechanics::Spring> pressing;  // hold the body as well, but are no springs of the linear problem
   for (const SupportSpec& s : setup.supports) {
     if (isOneSided(s) && !inLargeDeformation(setup))
-      throw BadInput(s.kind == SupportSpec::Kind::Ligament
-                         ? "a ligament, which goes slack and turns, is offered for kinematics \"hyperelastic\" or a rigid "
-                           "retractor: change that, or take a spring instead"
-                         : "a spring that only presses (\"unilateral\") is offered for kinematics \"hyperelastic\" or a "
-                           "rigid retractor: change that, or let it pull as well");
+      throw BadInput(
+          s.kind == SupportSpec::Kind::Ligament
+              ? "a ligament, which goes slack and turns, is offered for kinematics \"hyperelastic\" or a rigid "
+                "retractor: change that, or take a spring instead"
+              : "a spring that only presses (\"unilateral\") is offered for kinematics \"hyperelastic\" or a "
+                "rigid retractor: change that, or let it pull as well");
     if (s.kind == SupportSpec::Kind::Ligament) {
       // Where it is attached it holds the body; how, the solver of large deformation says.
       for (const int node : mechanics::nodesOfFaces(body.mesh(), meshFaces(body, s.region)))
@@ -251,8 +249,11 @@ MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& se
     else if (s.kind == SupportSpec::Kind::Spring && s.stiffness_kPa_per_mm > 0)
       for (const mechanics::Foundation& f : mechanics::foundations(
                meshFaces(body, s.region), mechanics::N_m3_per_kPa_mm * s.stiffness_kPa_per_mm,
-               s.normalOnly ? mechanics::SpringDirection::Normal : mechanics::SpringDirection::Every))
+               s.normalOnly || (s.unilateral && !(s.tangential > 0)) ? mechanics::SpringDirection::Normal
+                                                                     : mechanics::SpringDirection::Every))
         own.push_back(f);
+    // What only presses holds along its normal, and across it by its tangential share: that some is there is enough
+    // here.
     for (const mechanics::Spring& spring : mechanics::faceSprings(body.mesh(), own))
       (s.unilateral ? pressing : scene.problem.supports.springs).push_back(spring);
     if (s.unilateral) continue;
@@ -271,11 +272,11 @@ MechanicsScene toMechanics(const Body& body, const Model& model, const Setup& se
   const bool rigid = rigidBarOf(setup).has_value();
   scene.problem.f_N = zeroField(body);
   for (const LoadSpec& load : setup.loads) {
-    scene.tractions.push_back(std::visit(
-        LoadBuilder{body, model, scene.contact, rigid,
-                    inLargeDeformation(setup) && setup.kinematics != Kinematics::Linear,
-                    setup.kinematics == Kinematics::Corotational},
-        load));
+    scene.tractions.push_back(
+        std::visit(LoadBuilder{body, model, scene.contact, rigid,
+                               inLargeDeformation(setup) && setup.kinematics != Kinematics::Linear,
+                               setup.kinematics == Kinematics::Corotational},
+                   load));
     const auto* weight = std::get_if<BodyForce>(&load);
     scene.loads_N.push_back(weight ? mechanics::bodyForce(body.mesh(), body.vectorToLocal(weight->N_per_m3))
                                    : nodalForces(body, scene.tractions.back()));

@@ -11,11 +11,11 @@
 namespace glisson::roi {
 namespace {
 
-constexpr double trueRepeat_mm = 0.05;     ///< two even-odd outlines within this are one
-constexpr double mostlyAlike = 0.5;        ///< of their union that repeated outlines share
-constexpr double sticksOutLess_mm = 0.1;   ///< of its border, on the average, by which an enclosed outline may stick out
-constexpr double sticksOutPart = 0.01;     ///< of its area
-constexpr double touchesOnly = 0.01;       ///< of the smaller area that two outlines may share and be called apart
+constexpr double trueRepeat_mm = 0.05;    ///< two even-odd outlines within this are one
+constexpr double mostlyAlike = 0.5;       ///< of their union that repeated outlines share
+constexpr double sticksOutLess_mm = 0.1;  ///< of its border, on the average, by which an enclosed outline may stick out
+constexpr double sticksOutPart = 0.01;    ///< of its area
+constexpr double touchesOnly = 0.01;      ///< of the smaller area that two outlines may share and be called apart
 
 struct Shape {
   Eigen::Vector2d low, high;
@@ -24,8 +24,7 @@ struct Shape {
 
 Shape shapeOf(const Eigen::Matrix2Xd& ring) {
   Shape s{ring.rowwise().minCoeff(), ring.rowwise().maxCoeff()};
-  for (Eigen::Index v = 0; v < ring.cols(); ++v)
-    s.perimeter += (ring.col((v + 1) % ring.cols()) - ring.col(v)).norm();
+  for (Eigen::Index v = 0; v < ring.cols(); ++v) s.perimeter += (ring.col((v + 1) % ring.cols()) - ring.col(v)).norm();
   detail::forTrapezoids({ring}, [&s](const std::vector<bool>& in, double area) { s.area += in[0] ? area : 0.0; });
   return s;
 }
@@ -71,14 +70,9 @@ Arrangement arrangeSets(const std::vector<std::size_t>& order,
           result.level[b] = Arrangement::repeats;
           ++result.repeated;
           break;
-        case Relation::Enclosed:
-          enclosing.push_back(groups.find(static_cast<int>(a)));
-          break;
-        case Relation::Crossing:
-          crossed.push_back(a);
-          break;
-        case Relation::Apart:
-          break;
+        case Relation::Enclosed: enclosing.push_back(groups.find(static_cast<int>(a))); break;
+        case Relation::Crossing: crossed.push_back(a); break;
+        case Relation::Apart: break;
       }
     }
     if (result.level[b] == Arrangement::repeats) continue;
@@ -147,8 +141,7 @@ ContourStack withoutRepeats(const ContourStack& contours) {
     }
     if (rings.size() < 2) continue;
     const Arrangement arrangement = arrange(rings, flips);
-    for (std::size_t n = 0; n < which.size(); ++n)
-      repeated[which[n]] = arrangement.level[n] == Arrangement::repeats;
+    for (std::size_t n = 0; n < which.size(); ++n) repeated[which[n]] = arrangement.level[n] == Arrangement::repeats;
   }
   ContourStack result = contours;
   result.polygons.clear();

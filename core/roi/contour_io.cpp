@@ -21,12 +21,9 @@ constexpr std::uintmax_t largestFile = 256u << 20;  // bytes
 
 const char* name(PolygonState state) {
   switch (state) {
-    case PolygonState::Draft:
-      return "draft";
-    case PolygonState::Accepted:
-      return "accepted";
-    case PolygonState::Interpolated:
-      return "interpolated";
+    case PolygonState::Draft: return "draft";
+    case PolygonState::Accepted: return "accepted";
+    case PolygonState::Interpolated: return "interpolated";
   }
   return "accepted";
 }
@@ -129,9 +126,8 @@ std::string toJson(const ContourStack& contours) {
     Json points = Json::array();
     for (Eigen::Index v = 0; v < polygon.points_lps_mm.cols(); ++v)
       points.push_back({polygon.points_lps_mm(0, v), polygon.points_lps_mm(1, v), polygon.points_lps_mm(2, v)});
-    Json one = {{"state", name(polygon.state)},
-                {"exclude", polygon.exclude},
-                {"sop_instance_uid", polygon.sopInstanceUid}};
+    Json one = {
+        {"state", name(polygon.state)}, {"exclude", polygon.exclude}, {"sop_instance_uid", polygon.sopInstanceUid}};
     if (polygon.combine == Combine::Parity) one["combine"] = "parity";
     one["points_lps_mm"] = std::move(points);
     polygons.push_back(std::move(one));

@@ -35,8 +35,8 @@ struct ContourStack {
 };
 
 /// Masks the voxels whose centre lies inside, slice by slice: a polygon belongs to the one slice of the grid nearest to
-/// its plane (within half a slice spacing; see polygonsPerSlice for several planes in one slice). The include polygons of
-/// a slice are sets of points: what overlaps is joined, an inner polygon is a hole, a repeated one counts once
+/// its plane (within half a slice spacing; see polygonsPerSlice for several planes in one slice). The include polygons
+/// of a slice are sets of points: what overlaps is joined, an inner polygon is a hole, a repeated one counts once
 /// (arrangement.h); within one polygon the even-odd rule holds, so that keyholes are holes. Exclude polygons are taken
 /// out afterwards. Tie rule: a centre exactly on an edge belongs to the polygon
 /// whose interior lies towards growing column index (then row index), so that two polygons that share an edge never
@@ -45,8 +45,8 @@ struct ContourStack {
 image::Mask rasterise(const ContourStack& contours, const image::Grid& grid);
 
 /// The area that polygons enclose on their slice (as sets of points, minus exclusions), mm², summed over planes; exact
-/// for crossing, nested and overlapping polygons. Drafts do not count. Throws BadInput as rasterise does for the polygons
-/// themselves.
+/// for crossing, nested and overlapping polygons. Drafts do not count. Throws BadInput as rasterise does for the
+/// polygons themselves.
 double area_mm2(const ContourStack& contours);
 
 }  // namespace glisson::roi

@@ -61,8 +61,8 @@ double sliceOf(const Polygon& polygon, const image::Grid& grid) {
   }
   if (off_mm > 0.5 * grid.spacing_mm.z()) {
     std::ostringstream why;
-    why << "the vertices of a polygon lie up to " << off_mm << " mm off their common plane, more than half a slice (" << 0.5 * grid.spacing_mm.z()
-        << " mm); a contour must lie in one slice";
+    why << "the vertices of a polygon lie up to " << off_mm << " mm off their common plane, more than half a slice ("
+        << 0.5 * grid.spacing_mm.z() << " mm); a contour must lie in one slice";
     throw BadInput(why.str());
   }
   return grid.lpsToIndex(plane.centre_lps_mm).z();
@@ -95,10 +95,9 @@ std::vector<FlatPolygons> flatPlanesOf(const ContourStack& contours) {
       const Eigen::Matrix3Xd offset_mm =
           contours.polygons[all[n].polygon].points_lps_mm.colwise() - plane.centre_lps_mm;
       const Plane& other = all[n].plane;
-      const bool same =
-          (std::abs((other.centre_lps_mm - plane.centre_lps_mm).dot(plane.axes.col(2))) < samePlane_mm &&
-           (!other.wide || std::abs(other.axes.col(2).dot(plane.axes.col(2))) > sameNormal)) ||
-          (plane.axes.col(2).transpose() * offset_mm).cwiseAbs().maxCoeff() < small_mm;
+      const bool same = (std::abs((other.centre_lps_mm - plane.centre_lps_mm).dot(plane.axes.col(2))) < samePlane_mm &&
+                         (!other.wide || std::abs(other.axes.col(2).dot(plane.axes.col(2))) > sameNormal)) ||
+                        (plane.axes.col(2).transpose() * offset_mm).cwiseAbs().maxCoeff() < small_mm;
       if (!same) continue;
       done[n] = true;
       flat.members.push_back(all[n].polygon);

@@ -10,8 +10,8 @@ namespace glisson::roi {
 /// Vertices of a closed polygon (3 x n) without those equal to the one before, the last before the first included.
 Eigen::Matrix3Xd distinctRing(const Eigen::Matrix3Xd& points);
 
-/// The ring without its second half where that repeats the first one point by point (within repeatedWithin_mm): an outline
-/// that was stored twice as one. Empty where it does not.
+/// The ring without its second half where that repeats the first one point by point (within repeatedWithin_mm): an
+/// outline that was stored twice as one. Empty where it does not.
 std::optional<Eigen::Matrix3Xd> onceRound(const Eigen::Matrix3Xd& ring);
 
 /// Whether two edges of the polygon meet anywhere else than at the vertex that neighbours share (crossing, touching, or

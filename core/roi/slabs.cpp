@@ -31,9 +31,8 @@ std::vector<DirectedEdge> directedEdgesOf(const Eigen::Matrix2Xd& ring) {
     }
     edges.push_back(e);
   }
-  std::stable_sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
-    return a.edge.low.y() < b.edge.low.y();
-  });
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const DirectedEdge& a, const DirectedEdge& b) { return a.edge.low.y() < b.edge.low.y(); });
   return edges;
 }
 

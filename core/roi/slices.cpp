@@ -113,9 +113,9 @@ SliceOutlines outlinesOf(const ContourStack& contours, const image::Grid& grid) 
   }
   const double step = several ? usualStep(all) : 1.0;
   for (std::size_t k = 0; k < near.size(); ++k)
-    result.members.push_back(near[k].empty() ? std::vector<std::size_t>{}
-                                             : choose(all, near[k], static_cast<double>(k), step, grid.spacing_mm.z(),
-                                                      result));
+    result.members.push_back(near[k].empty()
+                                 ? std::vector<std::size_t>{}
+                                 : choose(all, near[k], static_cast<double>(k), step, grid.spacing_mm.z(), result));
   return result;
 }
 

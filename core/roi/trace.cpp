@@ -74,8 +74,8 @@ std::vector<Point> withoutStraightRuns(const std::vector<Point>& ring) {
   return kept;
 }
 
-/// Polygons of slice k, from the first given: rings as thin as a pencil line would be taken for one outline drawn twice,
-/// so that they flip what they enclose where the slice would not come out as it was.
+/// Polygons of slice k, from the first given: rings as thin as a pencil line would be taken for one outline drawn
+/// twice, so that they flip what they enclose where the slice would not come out as it was.
 void keepExact(ContourStack& contours, std::size_t first, const image::Mask& mask, int k) {
   if (contours.polygons.size() < first + 2) return;
   std::vector<std::size_t> here(contours.polygons.size() - first);

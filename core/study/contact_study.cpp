@@ -21,7 +21,8 @@ using mechanics::SolidLaw;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// A box of cubes whose floor y = 0 is held, and samples of its face y+ as scenes have them, 1.5 mm and half an edge apart at most.
+/// A box of cubes whose floor y = 0 is held, and samples of its face y+ as scenes have them, 1.5 mm and half an edge
+/// apart at most.
 mechanics::ContactProblem onFloor(const Vector3d& size_mm, double h_mm, double E_Pa, double poisson) {
   mechanics::ContactProblem p;
   mechanics::VoxelBody& body = p.problem.body;
@@ -42,9 +43,9 @@ mechanics::ContactProblem onFloor(const Vector3d& size_mm, double h_mm, double E
 }
 
 std::string nameOf(SolidLaw law) {
-  return law == SolidLaw::Linear        ? "rigid bar, linear"
+  return law == SolidLaw::Linear       ? "rigid bar, linear"
          : law == SolidLaw::Polynomial ? "polynomial neo-Hookean"
-                                        : "logarithmic neo-Hookean";
+                                       : "logarithmic neo-Hookean";
 }
 
 /// Solves and begins the row; the errors are still to be filled in.
@@ -162,7 +163,8 @@ ElasticaTip elasticaTip(double load) {
       return State{q.curvature, -load * std::cos(q.theta), std::cos(q.theta), std::sin(q.theta)};
     };
     const auto moved = [](const State& q, const State& d, double h) {
-      return State{q.theta + h * d.theta, q.curvature + h * d.curvature, q.along + h * d.along, q.across + h * d.across};
+      return State{q.theta + h * d.theta, q.curvature + h * d.curvature, q.along + h * d.along,
+                   q.across + h * d.across};
     };
     constexpr double h = 1.0 / steps;
     for (int i = 0; i < steps; ++i) {

@@ -70,8 +70,8 @@ double relativeDifference(const mechanics::NodalField& a, const mechanics::Nodal
 
 std::vector<StabilityCase> stabilitySweep(const StabilityOptions& options, const Progress& progress) {
   Scenes scenes;
-  for (const auto& group :
-       {motionScenes, bendingScenes, contrastScenes, matrixScenes, meshScenes, refusalScenes, retractionScenes, contactScenes})
+  for (const auto& group : {motionScenes, bendingScenes, contrastScenes, matrixScenes, meshScenes, refusalScenes,
+                            retractionScenes, contactScenes})
     for (ExtremeScene& s : group(options)) scenes.push_back(std::move(s));
   std::vector<StabilityCase> cases;
   for (const ExtremeScene& s : scenes) {

@@ -1,5 +1,5 @@
-// A soft lobe on a rigid bar: poses, stiffnesses, Poisson's ratios, with and without capsule. Each place bears the weight
-// or the bar slips, and the largest force is said.
+// A soft lobe on a rigid bar: poses, stiffnesses, Poisson's ratios, with and without capsule. Each place bears the
+// weight or the bar slips, and the largest force is said.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -47,7 +47,8 @@ std::vector<double> covered(const Eigen::Vector3i& cells) {
       for (int i = 0; i < cells.x(); ++i) {
         int inside = 0;
         for (int t = 0; t < 64; ++t) {
-          const Vector3d p = Vector3d(i + (t % 4 + 0.5) / 4, j + (t / 4 % 4 + 0.5) / 4, k + (t / 16 + 0.5) / 4) * cell_mm;
+          const Vector3d p =
+              Vector3d(i + (t % 4 + 0.5) / 4, j + (t / 4 % 4 + 0.5) / 4, k + (t / 16 + 0.5) / 4) * cell_mm;
           inside += (p - half_mm).cwiseQuotient(half_mm).squaredNorm() < 1 ? 1 : 0;
         }
         fraction.push_back(inside < 7 ? 0.0 : inside / 64.0);
@@ -120,7 +121,8 @@ Outcome hoisted(double shear_kPa, double poisson, double capsule_N_m, int step, 
 
 Scenes contactScenes(const StabilityOptions& options) {
   Scenes s;
-  const std::vector<double> shears = options.quick ? std::vector<double>{2.1, 8.0} : std::vector<double>{1.0, 2.1, 5.8, 8.0};
+  const std::vector<double> shears =
+      options.quick ? std::vector<double>{2.1, 8.0} : std::vector<double>{1.0, 2.1, 5.8, 8.0};
   const std::vector<double> ratios = options.quick ? std::vector<double>{0.45} : std::vector<double>{0.3, 0.45, 0.49};
   for (const double capsule : {250.0, 0.0})
     for (const double ratio : ratios)

@@ -18,12 +18,9 @@ constexpr int mostSteps = 40000;  ///< of the reference
 
 const char* inWords(TimeScheme scheme) {
   switch (scheme) {
-    case TimeScheme::Newmark:
-      return "Newmark, average acceleration";
-    case TimeScheme::GeneralisedAlpha:
-      return "Generalised alpha";
-    case TimeScheme::ImplicitEuler:
-      break;
+    case TimeScheme::Newmark: return "Newmark, average acceleration";
+    case TimeScheme::GeneralisedAlpha: return "Generalised alpha";
+    case TimeScheme::ImplicitEuler: break;
   }
   return "Implicit Euler";
 }

@@ -39,8 +39,8 @@ OneStiffness::OneStiffness(const Retracted& retracted, const retraction::Setup& 
   mechanics::ContactOptions options;
   options.tolerance = std::max(1e-6, setup.solver.tolerance);
   const retraction::RigidContact& c = *retracted.result.contact;
-  const Eigen::Vector3d start_m = body_.toLocal_m(c.bar_mm.front()) +
-                                  scene_.layers.cast<double>().cwiseProduct(body_.voxels().h_m);
+  const Eigen::Vector3d start_m =
+      body_.toLocal_m(c.bar_mm.front()) + scene_.layers.cast<double>().cwiseProduct(body_.voxels().h_m);
   equilibrium_ =
       std::make_unique<mechanics::Equilibrium>(scene_.problem, options, c.cut_u_m, mmToM * c.travel_mm, start_m);
 }
@@ -104,9 +104,55 @@ Eigen::VectorXf OneStiffness::displacements(const Places& places, const mechanic
   return gathered(places, retraction::onModelNodes(body_, scene_, motion.u_m), motion.surface_u_m);
 }
 
+std::optional<Leverage> OneStiffness::leverage(const mechanics::MotionWeights& figure, const Places& places) const {
+  constexpr double tolerance = 1e-5, tenPercent = 0.1, m3ToMl = 1e6;
+  const std::optional<std::vector<double>> gradient = equilibrium_->gradientByModuli(figure, tolerance);
+  if (!gradient) return {};
+  const mechanics::VoxelBody& body = scene_.problem.problem.body;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  double area = 0;
+  for (std::size_t i = 0; i < places.sample.size(); ++i) {
+    middle += places.sample_mm2[i] * scene_.problem.surface[places.sample[i]].p_m;
+    area += places.sample_mm2[i];
+  }
+  if (!(area > 0)) return {};
+  middle /= area;
+  struct Cell {
+    double share = 0, away_m = 0;
+  };
+  std::vector<Cell> cells;
+  Leverage l;
+  double all = 0;
+  for (int k = 0; k < body.cells.z(); ++k)
+    for (int j = 0; j < body.cells.y(); ++j)
+      for (int i = 0; i < body.cells.x(); ++i) {
+        const std::size_t c = body.cell(i, j, k);
+        if (!(body.E_Pa[c] > 0)) continue;
+        const Eigen::Vector3d centre =
+            (Eigen::Vector3d(i, j, k) + Eigen::Vector3d::Constant(0.5)).cwiseProduct(body.h_m);
+        cells.push_back({std::abs((*gradient)[c]), (centre - middle).norm()});
+        l.per10percent_mm += tenPercent * (*gradient)[c] / mmToM;
+        all += cells.back().share;
+      }
+  if (!(all > 0)) return {};
+  const auto untilHalf = [&](auto before) {
+    std::sort(cells.begin(), cells.end(), before);
+    double sum = 0;
+    std::size_t n = 0;
+    while (n < cells.size() && sum < 0.5 * all) sum += cells[n++].share;
+    return n;
+  };
+  l.half_mL = static_cast<double>(untilHalf([](const Cell& a, const Cell& b) { return a.share > b.share; })) *
+              body.h_m.prod() * m3ToMl;
+  l.halfWithin_mm =
+      cells[untilHalf([](const Cell& a, const Cell& b) { return a.away_m < b.away_m; }) - 1].away_m / mmToM;
+  return l;
+}
+
 mechanics::EquilibriumMotion OneStiffness::fromRest(const mechanics::Change& change, const Progress& progress) const {
   mechanics::EquilibriumMotion m;
-  const mechanics::ContactSolution s = mechanics::solveContact(mechanics::changed(scene_.problem, change), {}, progress);
+  const mechanics::ContactSolution s =
+      mechanics::solveContact(mechanics::changed(scene_.problem, change), {}, progress);
   m.iterations = s.newton;
   if (s.outcome != mechanics::ContactOutcome::Reached) return m;
   const retraction::RigidContact& here = *retracted_.result.contact;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mechanics/contact/equilibrium.h"
@@ -31,6 +32,13 @@ struct Places {
   std::size_t count() const { return landmark.size() + sample.size() + cells; }
 };
 
+/// Where the stiffness that moves a figure lies, by the derivative of the figure by every cell's ln modulus.
+struct Leverage {
+  double per10percent_mm = 0;  ///< what the figure moves by if all of the tissue is 10 % stiffer
+  double half_mL = 0;          ///< least volume of tissue that holds half of the sum of absolute derivatives
+  double halfWithin_mm = 0;    ///< of the middle of the contact, at rest: the tissue that holds half of that sum
+};
+
 /// A retraction with its equilibrium in hand.
 class OneStiffness {
  public:
@@ -49,8 +57,11 @@ class OneStiffness {
   /// Displacement of the places, 3 × count, mm, grid axes.
   Eigen::VectorXf displacements(const Places& places) const;
   Eigen::VectorXf displacements(const Places& places, const mechanics::EquilibriumMotion& motion) const;
-  /// The changed problem solved from rest, path and all, and the motion from the answer at hand to that one. found is false
-  /// where it has no answer: the bar slips, or the solver stops.
+  /// Of a figure that moves by `figure`, in m, with this liver's stiffness. Nothing where
+  /// mechanics::Equilibrium::gradientByModuli gives nothing.
+  std::optional<Leverage> leverage(const mechanics::MotionWeights& figure, const Places& places) const;
+  /// The changed problem solved from rest, path and all, and the motion from the answer at hand to that one. found is
+  /// false where it has no answer: the bar slips, or the solver stops.
   mechanics::EquilibriumMotion fromRest(const mechanics::Change& change, const Progress& progress) const;
   /// An error of the ln modulus of every cell of the problem (x fastest), of the given seed: noise everywhere, and more
   /// where the elastogram was filled in, as it was beyond the model's own cells.

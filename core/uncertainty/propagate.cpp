@@ -46,6 +46,8 @@ class Propagation {
     const double half = textbook_ ? 0.6 : 0.75;
     if (!push(*measured_, false, 0.0, half, first_.measuredGain, first_.travelGain)) return out_;
     if (textbook_ && !push(*textbook_, true, half, 0.75, first_.textbookGain, first_.textbookTravelGain)) return out_;
+    out_.leverage = measured_->leverage(headline(), first_.places);
+    ++out_.solves;
     const std::vector<FurtherErrors> further = furtherErrors();
     progress_.report(0.95, "draws of all sources");
     out_.spread = sampled(first_, further, options_.draws, seed_ + 77);
@@ -72,15 +74,16 @@ class Propagation {
       if (textbook && !solver && !c.textbook) continue;
       const Change& change = textbook && c.textbook ? *c.textbook : c.measured;
       const mechanics::EquilibriumMotion m =
-          solver ? at.respond(at.left(), options_.tolerance)
-                 : at.respond(at.by(change), std::min(options_.tolerance, movesContact(change) ? contactTolerance : 1.0));
+          solver
+              ? at.respond(at.left(), options_.tolerance)
+              : at.respond(at.by(change), std::min(options_.tolerance, movesContact(change) ? contactTolerance : 1.0));
       ++out_.solves;
       out_.iterations += m.iterations;
       if (!m.found) {
         out_.why =
             std::string("the equilibrium with the ") + (textbook ? "textbook" : "measured") +
             " stiffness is at the edge of what bears: its tangent is not positive, and the smallest change of the "
-            "sources may make the bar slip or the liver snap";
+            "sources may make the bar slip or the body snap";
         out_.diagnostics.add(DiagnosticCode::UncertaintyUnknown,
                              {{"stiffness", std::string(textbook ? "textbook" : "measured")}});
         return false;
@@ -89,6 +92,27 @@ class Propagation {
       travel[k] = m.travel_m / mmToM;
     }
     return true;
+  }
+
+  /// The difference at the retractor, the mean length over the samples under the bar, to first order in the measured
+  /// liver's motion; without a comparison the travel of the bar.
+  mechanics::MotionWeights headline() const {
+    mechanics::MotionWeights w;
+    if (!textbook_) {
+      w.travel = 1;
+      return w;
+    }
+    const Places& places = first_.places;
+    w.surface = Eigen::Matrix3Xd::Zero(3, static_cast<Index>(measured_->problem().surface.size()));
+    double area = 0;
+    for (const double a : places.sample_mm2) area += a;
+    for (std::size_t i = 0; i < places.sample.size(); ++i) {
+      const auto at = static_cast<Index>(3 * (places.landmark.size() + i));
+      const Eigen::Vector3d apart = (first_.measured.segment<3>(at) - first_.textbook.segment<3>(at)).cast<double>();
+      if (apart.norm() > 0)
+        w.surface.col(static_cast<Index>(places.sample[i])) = places.sample_mm2[i] / area * apart.normalized();
+    }
+    return w;
   }
 
   /// What the first order says of a draw, on the nodes of the problem: solved once more for their sum, loosely.
@@ -149,8 +173,7 @@ class Propagation {
       return spread_mm > 0 ? missed_mm / spread_mm : 0.0;
     };
     missed.place = share(c.missed_mm, first_.measuredGain);
-    if (textbook_)
-      missed.difference = share(lengthOf(missedDifference), first_.measuredGain - first_.textbookGain);
+    if (textbook_) missed.difference = share(lengthOf(missedDifference), first_.measuredGain - first_.textbookGain);
     return c;
   }
 

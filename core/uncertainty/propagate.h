@@ -8,6 +8,7 @@
 #include "base/diagnostic.h"
 #include "base/progress.h"
 #include "uncertainty/columns.h"
+#include "uncertainty/one_stiffness.h"
 #include "uncertainty/sampling.h"
 #include "uncertainty/sources.h"
 
@@ -29,6 +30,8 @@ struct Uncertainty {
   std::vector<SourceWords> words;  ///< of spread.sources
   std::vector<Check> checks;
   std::optional<double> missedShare;  ///< Σ missed² over Σ change² of the checks, root; empty where none has an answer
+  /// Of the difference at the retractor by the measured liver's stiffness; without a comparison of the bar's travel.
+  std::optional<Leverage> leverage;
   int fields = 0, solves = 0, iterations = 0;
   Diagnostics diagnostics;
 };

@@ -33,8 +33,8 @@ Interval middleOf(Eigen::VectorXd v) {
   return {at(0.025), at(0.975)};
 }
 
-/// Of lengths about the one at hand: the middle 95 % joined with its reflection at that. Near nothing, draws of a vector
-/// are nearly all longer than it is, though it may as well be what they are taken for.
+/// Of lengths about the one at hand: the middle 95 % joined with its reflection at that. Near nothing, draws of a
+/// vector are nearly all longer than it is, though it may as well be what they are taken for.
 Interval aboutLength(Eigen::VectorXd v, double here) {
   const Interval middle = middleOf(std::move(v));
   return {std::max(0.0, std::min(middle.low, 2 * here - middle.high)), std::max(middle.high, 2 * here - middle.low)};
@@ -64,7 +64,8 @@ struct Draws {
   }
 };
 
-/// What the further errors add to the differences in every draw, mm: the same everywhere, and per mm of a place's spread.
+/// What the further errors add to the differences in every draw, mm: the same everywhere, and per mm of a place's
+/// spread.
 struct Shift {
   Eigen::MatrixXf everywhere, ofSpread;  ///< 3 × draws
 };
@@ -266,7 +267,8 @@ Spread sampled(const FirstOrder& first, const std::vector<FurtherErrors>& furthe
   double spread_mm2 = 0;
   const auto landmarks = static_cast<Index>(first.places.landmark.size());
   if (landmarks > 0)
-    spread_mm2 = static_cast<double>(first.measuredGain.topRows(3 * landmarks).squaredNorm()) / static_cast<double>(landmarks);
+    spread_mm2 =
+        static_cast<double>(first.measuredGain.topRows(3 * landmarks).squaredNorm()) / static_cast<double>(landmarks);
   for (const FurtherErrors& f : further) {
     const double vessels_mm = std::sqrt(squared(f.place_mm) + squared(f.place) * spread_mm2);
     out.sources.push_back({f.kind, lengths ? f.at_retractor_mm : vessels_mm, f.mean_mm, f.travel_mm, vessels_mm});

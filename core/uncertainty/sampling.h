@@ -64,9 +64,9 @@ struct Figures {
 Figures figuresOf(const Places& places, const Eigen::VectorXf& measured, const Eigen::VectorXf& textbook);
 
 /// Draws all sources `draws` times and takes lengths draw by draw, so that a difference near 0 has no negative half.
-/// Intervals run from the 2.5th to the 97.5th percentile; those of lengths are joined with their reflection at the length
-/// at hand. As the covariance of the elastogram comes from few fields,
-/// its part of a draw is scaled as Student's t is. The same bits for the same seed, with any number of threads.
+/// Intervals run from the 2.5th to the 97.5th percentile; those of lengths are joined with their reflection at the
+/// length at hand. As the covariance of the elastogram comes from few fields, its part of a draw is scaled as Student's
+/// t is. The same bits for the same seed, with any number of threads.
 Spread sampled(const FirstOrder& first, const std::vector<FurtherErrors>& further, int draws, std::uint64_t seed);
 
 }  // namespace glisson::uncertainty

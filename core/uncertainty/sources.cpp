@@ -26,18 +26,14 @@ SourceWords wordsOf(SourceKind kind, const Spreads& s, double noise) {
       return {"elastogram-repeatability", text("", 100 * s.repeatability, " % of the whole elastogram"), "qiba2022mre"};
     case SourceKind::Outline:
       return {"outline", text("", s.outline_mm, " mm of the whole outline"), "heimann2009comparison"};
-    case SourceKind::Poisson:
-      return {"poisson", text("", s.poisson, " of Poisson's ratio"), own};
+    case SourceKind::Poisson: return {"poisson", text("", s.poisson, " of Poisson's ratio"), own};
     case SourceKind::Supports:
       return {"supports", text("", 100 * s.supports, " % of the stiffness of bed, springs and ligaments"), own};
     case SourceKind::Capsule:
       return {"capsule", text("", 100 * s.capsule, " % of the capsule's tension"), "umale2011characterization"};
-    case SourceKind::Force:
-      return {"force", text("", 100 * s.force, " % of the force on the bar"), own};
-    case SourceKind::Density:
-      return {"density", text("", 100 * s.density, " % of the liver's density"), own};
-    case SourceKind::BarPlace:
-      return {"bar-place", text("", s.barPlace_mm, " mm along and across the bar"), own};
+    case SourceKind::Force: return {"force", text("", 100 * s.force, " % of the force on the bar"), own};
+    case SourceKind::Density: return {"density", text("", 100 * s.density, " % of the liver's density"), own};
+    case SourceKind::BarPlace: return {"bar-place", text("", s.barPlace_mm, " mm along and across the bar"), own};
     case SourceKind::BarDirection:
       return {"bar-direction", text("", s.barTurn_deg, " degrees about each of three axes"), own};
     case SourceKind::Cells:

@@ -33,6 +33,10 @@ target_compile_definitions(glisson_itk INTERFACE ITK_USE_SYSTEM_EIGEN)
 
 find_package(OpenGL REQUIRED COMPONENTS EGL OpenGL)
 
+# Videos of a retraction: encoders and containers. Debian's VTK depends on the same packages.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavcodec libavformat libavutil)
+
 # SuiteSparse ships no CMake package in Debian 12.
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)

@@ -1,10 +1,14 @@
-# Debian packages by CPack: glisson (component app) and libglisson-dev (component dev). packaging/deb builds them.
+# Debian packages by CPack: glisson (component app), libglisson-dev (component dev) and python3-glisson (component python).
+# packaging/deb builds them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME glisson)
 set(GLISSON_CONTACT_MAIL "maintainers@glisson.invalid" CACHE STRING "Address of the packages' maintainer")
 set(CPACK_PACKAGE_CONTACT "The Glisson authors <${GLISSON_CONTACT_MAIL}>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL app dev)
+if(TARGET glisson_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_DIRECTORY "${PROJECT_BINARY_DIR}/packages")
@@ -51,4 +55,21 @@ foreach(line ${lines})
   endif()
 endforeach()
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "${needed}")
+
+# The module fits one version of Python, that of the release; glisson has the programs that it starts and the part that draws.
+if(TARGET glisson_python)
+  math(EXPR next "${GLISSON_PYTHON_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-glisson)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "glisson (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), python3-numpy, \
+python3 (>= 3.${GLISSON_PYTHON_MINOR}), python3 (<< 3.${next})")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/packaging/debian/python/postinst"
+    "${PROJECT_SOURCE_DIR}/packaging/debian/python/prerm")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Glisson's core as a Python module: scan, measure, invert, propose, plan, run,
+live and cohort, with the numbers of glisson-cli to the last bit. Arrays are
+NumPy's without copies, geometry is an affine, types are in stubs.
+
+Research use only, not for clinical use.")
+endif()
 include(CPack)

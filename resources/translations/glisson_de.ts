@@ -4,6 +4,22 @@
     <context>
         <name>glisson::panels::ComparePage</name>
         <message>
+            <source>Film the retraction…</source>
+            <translation>Retraktion filmen…</translation>
+        </message>
+        <message>
+            <source>Film the retraction</source>
+            <translation>Retraktion filmen</translation>
+        </message>
+        <message>
+            <source>Videos (*.webm *.mp4)</source>
+            <translation>Videos (*.webm *.mp4)</translation>
+        </message>
+        <message>
+            <source>The 3-D view from rest to the end, as WebM or MP4, with this camera and these colours</source>
+            <translation>Die 3-D-Ansicht von der Ruhe bis zum Ende, als WebM oder MP4, mit dieser Kamera und diesen Farben</translation>
+        </message>
+        <message>
             <source>± %1 by the size of the cells</source>
             <translation>± %1 durch die Zellgröße</translation>
         </message>
@@ -506,6 +522,34 @@
     <context>
         <name>glisson::panels::LoadPage</name>
         <message>
+            <source>Open files…</source>
+            <translation>Dateien öffnen…</translation>
+        </message>
+        <message>
+            <source>Volumes, masks, maps, an archive or a case (Ctrl+Shift+O)</source>
+            <translation>Volumen, Masken, Karten, ein Archiv oder einen Fall (Strg+Umschalt+O)</translation>
+        </message>
+        <message>
+            <source>%1 series, %2 files left out. Tick the series to be used; correct a role where it is wrong.</source>
+            <translation>%1 Serien, %2 Dateien ausgelassen. Die Serie anhaken, die verwendet werden soll; eine falsche Rolle berichtigen.</translation>
+        </message>
+        <message>
+            <source>A DICOM folder with an abdominal MRI and an MR elastogram, or NIfTI, NRRD and MetaImage volumes, masks and stiffness maps. Drop them here together, or start with a synthetic patient to look around.</source>
+            <translation>Ein DICOM-Ordner mit einer Abdomen-MRT und einem MR-Elastogramm, oder Volumen, Masken und Steifigkeitskarten als NIfTI, NRRD oder MetaImage. Zusammen hier ablegen, oder mit einem synthetischen Patienten beginnen, um sich umzusehen.</translation>
+        </message>
+        <message>
+            <source>Outlines and masks beside the images</source>
+            <translation>Konturen und Masken neben den Bildern</translation>
+        </message>
+        <message>
+            <source>“%1” was not opened: %2</source>
+            <translation>„%1“ wurde nicht geöffnet: %2</translation>
+        </message>
+        <message>
+            <source>What was open before is still open.</source>
+            <translation>Was vorher offen war, ist noch offen.</translation>
+        </message>
+        <message>
             <source>Open a patient</source>
             <translation>Patienten öffnen</translation>
         </message>
@@ -624,6 +668,50 @@
     </context>
     <context>
         <name>glisson::panels::MainWindow</name>
+        <message>
+            <source>&amp;Mouse</source>
+            <translation>&amp;Maus</translation>
+        </message>
+        <message>
+            <source>&amp;Three planes</source>
+            <translation>&amp;Drei Ebenen</translation>
+        </message>
+        <message>
+            <source>One view &amp;alone</source>
+            <translation>Eine Ansicht &amp;allein</translation>
+        </message>
+        <message>
+            <source>&amp;Manual</source>
+            <translation>&amp;Handbuch</translation>
+        </message>
+        <message>
+            <source>Manual</source>
+            <translation>Handbuch</translation>
+        </message>
+        <message>
+            <source>Right drag &amp;zooms</source>
+            <translation>Ziehen mit rechts &amp;zoomt</translation>
+        </message>
+        <message>
+            <source>Right drag changes &amp;window and level</source>
+            <translation>Ziehen mit rechts ändert &amp;Fenster und Lage</translation>
+        </message>
+        <message>
+            <source>The manual is not installed beside this program. It is in the folder resources/manual of the sources; packaging/manual makes HTML of it.</source>
+            <translation>Das Handbuch ist nicht neben diesem Programm installiert. Es liegt im Ordner resources/manual der Quellen; packaging/manual macht HTML daraus.</translation>
+        </message>
+        <message>
+            <source>Open case, volumes or archive</source>
+            <translation>Fall, Volumen oder Archiv öffnen</translation>
+        </message>
+        <message>
+            <source>Cases, volumes, archives, DICOMDIR (case.json *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.zip DICOMDIR);;All files (*)</source>
+            <translation>Fälle, Volumen, Archive, DICOMDIR (case.json *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.zip DICOMDIR);;Alle Dateien (*)</translation>
+        </message>
+        <message>
+            <source>Open &amp;case, volumes or archive…</source>
+            <translation>&amp;Fall, Volumen oder Archiv öffnen…</translation>
+        </message>
         <message>
             <source>&amp;Language</source>
             <translation>&amp;Sprache</translation>
@@ -1579,6 +1667,22 @@
     <context>
         <name>glisson::panels::OutlinePanel</name>
         <message>
+            <source>Over the MRI</source>
+            <translation>Über der MRT</translation>
+        </message>
+        <message>
+            <source>Stiffness over the MRI</source>
+            <translation>Steifigkeit über der MRT</translation>
+        </message>
+        <message>
+            <source>What counts: outlines that were accepted or interpolated, without what is left out, empty slices between them filled by shape</source>
+            <translation>Was zählt: angenommene und interpolierte Konturen ohne das Ausgelassene, leere Schichten dazwischen nach der Form gefüllt</translation>
+        </message>
+        <message>
+            <source>Volume %1 mL</source>
+            <translation>Volumen %1 mL</translation>
+        </message>
+        <message>
             <source>Outline the liver</source>
             <translation>Leber umfahren</translation>
         </message>
@@ -2179,6 +2283,50 @@ Name des Bereichs:</translation>
     <context>
         <name>glisson::session::Session</name>
         <message>
+            <source>Filming</source>
+            <translation>Wird gefilmt</translation>
+        </message>
+        <message>
+            <source>%1 and %2 more</source>
+            <translation>%1 und %2 weitere</translation>
+        </message>
+        <message>
+            <source>The synthetic patient</source>
+            <translation>Der synthetische Patient</translation>
+        </message>
+        <message>
+            <source>What was left behind</source>
+            <translation>Das Zurückgelassene</translation>
+        </message>
+        <message>
+            <source>There is no DICOM series, volume or case here; choose a DICOM folder, DICOMDIR, ZIP archive, a NIfTI, NRRD or MetaImage volume, or case.json.</source>
+            <translation>Hier ist weder eine DICOM-Serie noch ein Volumen oder ein Fall; einen DICOM-Ordner, ein DICOMDIR, ein ZIP-Archiv, ein Volumen (NIfTI, NRRD, MetaImage) oder case.json wählen.</translation>
+        </message>
+        <message>
+            <source>and %1 more files</source>
+            <translation>und %1 weitere Dateien</translation>
+        </message>
+        <message>
+            <source>a mask: its outlines are offered below</source>
+            <translation>eine Maske: Ihre Konturen werden unten angeboten</translation>
+        </message>
+        <message>
+            <source>a mask, and no image beside it: it is its own picture</source>
+            <translation>eine Maske ohne Bild daneben: Sie ist ihr eigenes Bild</translation>
+        </message>
+        <message>
+            <source>the file's name speaks of stiffness</source>
+            <translation>der Dateiname spricht von Steifigkeit</translation>
+        </message>
+        <message>
+            <source>a volume file, taken for an image</source>
+            <translation>eine Volumendatei, für ein Bild gehalten</translation>
+        </message>
+        <message>
+            <source>; beside DICOM series it is used where you give it a role</source>
+            <translation>; neben DICOM-Serien wird sie verwendet, wenn Sie ihr eine Rolle geben</translation>
+        </message>
+        <message>
             <source>vertex</source>
             <translation>Punkt</translation>
         </message>
@@ -2469,6 +2617,10 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
     <context>
         <name>glisson::views::SliceView</name>
         <message>
+            <source> kPa</source>
+            <translation> kPa</translation>
+        </message>
+        <message>
             <source> mm</source>
             <translation> mm</translation>
         </message>
@@ -2479,6 +2631,22 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
     </context>
     <context>
         <name>keymap</name>
+        <message>
+            <source>Alt+drag (or right drag: View, Mouse)</source>
+            <translation>Alt+Ziehen (oder Ziehen mit rechts: Ansicht, Maus)</translation>
+        </message>
+        <message>
+            <source>Stiffness over the MRI, on and off</source>
+            <translation>Steifigkeit über der MRT, ein und aus</translation>
+        </message>
+        <message>
+            <source>The view under the mouse alone, and back</source>
+            <translation>Die Ansicht unter der Maus allein, und zurück</translation>
+        </message>
+        <message>
+            <source>Three planes, linked by the crosshair</source>
+            <translation>Drei Ebenen, durch das Fadenkreuz verbunden</translation>
+        </message>
         <message>
             <source>Turn the 3-D view</source>
             <translation>3-D-Ansicht drehen</translation>
@@ -3453,6 +3621,821 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>The capsule is left out.</source>
             <translation>Die Kapsel ist weggelassen.</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::PlaneViews</name>
+        <message>
+            <source>This plane is being made.</source>
+            <translation>Diese Ebene wird gemacht.</translation>
+        </message>
+        <message>
+            <source>Axial</source>
+            <translation>Axial</translation>
+        </message>
+        <message>
+            <source>Coronal</source>
+            <translation>Koronal</translation>
+        </message>
+        <message>
+            <source>Sagittal</source>
+            <translation>Sagittal</translation>
+        </message>
+        <message>
+            <source>Open images first (step Load).</source>
+            <translation>Zuerst Bilder öffnen (Schritt Laden).</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::RegionList</name>
+        <message>
+            <source>structure</source>
+            <translation>Struktur</translation>
+        </message>
+        <message>
+            <source>segment</source>
+            <translation>Segment</translation>
+        </message>
+        <message>
+            <source>contours</source>
+            <translation>Konturen</translation>
+        </message>
+        <message>
+            <source>mask</source>
+            <translation>Maske</translation>
+        </message>
+        <message>
+            <source>mask, label %1</source>
+            <translation>Maske, Label %1</translation>
+        </message>
+        <message>
+            <source>Outlines and masks beside the images</source>
+            <translation>Konturen und Masken neben den Bildern</translation>
+        </message>
+        <message>
+            <source>Region</source>
+            <translation>Region</translation>
+        </message>
+        <message>
+            <source>Kind</source>
+            <translation>Art</translation>
+        </message>
+        <message>
+            <source>File</source>
+            <translation>Datei</translation>
+        </message>
+        <message>
+            <source>unnamed</source>
+            <translation>ohne Namen</translation>
+        </message>
+        <message>
+            <source>Take as outlines</source>
+            <translation>Als Konturen nehmen</translation>
+        </message>
+        <message>
+            <source>Takes %1 of %2 as outlines</source>
+            <translation>Nimmt %1 aus %2 als Konturen</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::SeriesTree</name>
+        <message>
+            <source>anatomical</source>
+            <translation>anatomisch</translation>
+        </message>
+        <message>
+            <source>magnitude</source>
+            <translation>Magnitude</translation>
+        </message>
+        <message>
+            <source>wave</source>
+            <translation>Welle</translation>
+        </message>
+        <message>
+            <source>stiffness</source>
+            <translation>Steifigkeit</translation>
+        </message>
+        <message>
+            <source>confidence</source>
+            <translation>Konfidenz</translation>
+        </message>
+        <message>
+            <source>colour copy</source>
+            <translation>Farbkopie</translation>
+        </message>
+        <message>
+            <source>raw phase</source>
+            <translation>rohe Phase</translation>
+        </message>
+        <message>
+            <source>other</source>
+            <translation>andere</translation>
+        </message>
+        <message>
+            <source>Volume files, of no named patient</source>
+            <translation>Volumendateien, ohne Patientenangabe</translation>
+        </message>
+        <message>
+            <source>Patient %1</source>
+            <translation>Patient %1</translation>
+        </message>
+        <message>
+            <source>without a date</source>
+            <translation>ohne Datum</translation>
+        </message>
+        <message>
+            <source>Files, %1</source>
+            <translation>Dateien, %1</translation>
+        </message>
+        <message>
+            <source>%1 examination, %2</source>
+            <translation>%1-Untersuchung, %2</translation>
+        </message>
+        <message>
+            <source>Patients, studies and series</source>
+            <translation>Patienten, Untersuchungen und Serien</translation>
+        </message>
+        <message>
+            <source>Series</source>
+            <translation>Serie</translation>
+        </message>
+        <message>
+            <source>In use</source>
+            <translation>Im Gebrauch</translation>
+        </message>
+        <message>
+            <source>Role</source>
+            <translation>Rolle</translation>
+        </message>
+        <message>
+            <source>Why</source>
+            <translation>Warum</translation>
+        </message>
+        <message>
+            <source>Voxels</source>
+            <translation>Voxel</translation>
+        </message>
+        <message>
+            <source>Spacing</source>
+            <translation>Abstand</translation>
+        </message>
+        <message>
+            <source>Warnings</source>
+            <translation>Warnungen</translation>
+        </message>
+        <message>
+            <source>In use: the MRI that is drawn on</source>
+            <translation>Im Gebrauch: die MRT, auf der gezeichnet wird</translation>
+        </message>
+        <message>
+            <source>In use: the elastogram that is measured</source>
+            <translation>Im Gebrauch: das Elastogramm, das gemessen wird</translation>
+        </message>
+        <message>
+            <source>Use this one</source>
+            <translation>Diese verwenden</translation>
+        </message>
+        <message>
+            <source>Role of series %1</source>
+            <translation>Rolle der Serie %1</translation>
+        </message>
+    </context>
+    <context>
+        <name>diagnostics</name>
+        <message>
+            <source>the multigrid solver {reason} after {spent} iterations; {solver} took over with {iterations} iterations: the answer is as exact, and took longer than it should have</source>
+            <translation>der Mehrgitterlöser {reason} nach {spent} Iterationen; {solver} hat mit {iterations} Iterationen übernommen: Die Antwort ist ebenso genau, hat aber länger gebraucht als nötig</translation>
+        </message>
+        <message>
+            <source>the largest displacement ({displacement_mm} mm) exceeds the body ({body_mm} mm): not a deformation</source>
+            <translation>die größte Verschiebung ({displacement_mm} mm) übersteigt den Körper ({body_mm} mm): Das ist keine Verformung</translation>
+        </message>
+        <message>
+            <source>cells turned inside out: {cells}</source>
+            <translation>umgestülpte Zellen: {cells}</translation>
+        </message>
+        <message>
+            <source>outside linear elasticity: 5 % of the volume strains by more than {percent} % (limit {limit_percent} %)</source>
+            <translation>außerhalb der linearen Elastizität: 5 % des Volumens dehnen sich um mehr als {percent} % (Grenze {limit_percent} %)</translation>
+        </message>
+        <message>
+            <source>outside linear elasticity: material turns by up to {degrees} degrees (limit {limit_degrees})</source>
+            <translation>außerhalb der linearen Elastizität: Das Gewebe dreht sich um bis zu {degrees} Grad (Grenze {limit_degrees})</translation>
+        </message>
+        <message>
+            <source>material turns by up to {degrees} degrees: small-strain theory adds a spurious strain of about 1 % from 8 degrees on</source>
+            <translation>das Gewebe dreht sich um bis zu {degrees} Grad: Die Theorie kleiner Dehnungen täuscht ab 8 Grad etwa 1 % Dehnung vor</translation>
+        </message>
+        <message>
+            <source>{percent} % of the volume strains by more than 10 %</source>
+            <translation>{percent} % des Volumens dehnen sich um mehr als 10 %</translation>
+        </message>
+        <message>
+            <source>the NIfTI header places the volume twice, up to {mm} mm apart (turned by {degrees} degrees, {handedness}): its sform was taken; other programs take the qform, so save it again with one place</source>
+            <translation>der NIfTI-Kopf gibt dem Volumen zwei Lagen, bis zu {mm} mm auseinander (um {degrees} Grad gedreht, {handedness}): Seine sform wurde genommen; andere Programme nehmen die qform, darum mit einer einzigen Lage neu speichern</translation>
+        </message>
+        <message>
+            <source>the NIfTI header gives voxels of {pixdim_mm} mm and, by its sform, of {sform_mm} mm: those of the sform were taken</source>
+            <translation>der NIfTI-Kopf gibt Voxel von {pixdim_mm} mm an und nach seiner sform von {sform_mm} mm: Die der sform wurden genommen</translation>
+        </message>
+        <message>
+            <source>the volume's header does not say where it lies in the patient (no {missing}): it was laid along the patient's axes from the centre of the scanner; save it with its place</source>
+            <translation>der Kopf des Volumens sagt nicht, wo im Patienten es liegt (keine Angabe: {missing}): Es wurde von der Mitte des Geräts aus längs der Achsen des Patienten gelegt; mit seiner Lage speichern</translation>
+        </message>
+        <message>
+            <source>the volume's header calls its axes {said} (AnatomicalOrientation), but its directions are {taken}, which were taken: one of the two is wrong</source>
+            <translation>der Kopf des Volumens nennt seine Achsen {said} (AnatomicalOrientation), seine Richtungen sind aber {taken}, und diese wurden genommen: Eines von beiden ist falsch</translation>
+        </message>
+        <message>
+            <source>the volume's voxels are {smallest_mm} to {largest_mm} mm large by its header, which those of no image of a patient are: check the unit of its lengths</source>
+            <translation>die Voxel des Volumens sind nach seinem Kopf {smallest_mm} bis {largest_mm} mm groß, wie in keinem Bild eines Patienten: die Einheit der Längen prüfen</translation>
+        </message>
+        <message>
+            <source>the mask of what is to be left out holds no voxel of the region of interest: nothing was left out; check that both belong together</source>
+            <translation>die Maske des Auszulassenden enthält kein Voxel der Region: Nichts wurde ausgelassen; prüfen, ob beide zusammengehören</translation>
+        </message>
+        <message>
+            <source>{there} of {announced} images are there, by the number of images in its acquisition that its header gives: was the transfer complete?</source>
+            <translation>{there} von {announced} Bildern sind da, nach der Zahl der Bilder der Aufnahme, die ihr Kopf angibt: War die Übertragung vollständig?</translation>
+        </message>
+        <message>
+            <source>{there} of {announced} slices are there, by the number of slices that its header gives: was the transfer complete?</source>
+            <translation>{there} von {announced} Schichten sind da, nach der Zahl der Schichten, die ihr Kopf angibt: War die Übertragung vollständig?</translation>
+        </message>
+        <message>
+            <source>its slices lie up to {mm} mm off an even spacing of {spacing_mm} mm, as rounded positions do; the even spacing was taken</source>
+            <translation>ihre Schichten liegen bis zu {mm} mm neben einem gleichmäßigen Abstand von {spacing_mm} mm, wie bei gerundeten Lagen; der gleichmäßige Abstand wurde genommen</translation>
+        </message>
+        <message>
+            <source>its {slices} slices lie unevenly ({smallest_mm} to {largest_mm} mm apart): statistics count each slice by itself, and no volume can be made of them</source>
+            <translation>ihre {slices} Schichten liegen ungleichmäßig ({smallest_mm} bis {largest_mm} mm auseinander): Die Statistik zählt jede Schicht für sich, ein Volumen lässt sich daraus nicht machen</translation>
+        </message>
+        <message>
+            <source>no image series was found; {files} files were left out</source>
+            <translation>es wurde keine Bildserie gefunden; {files} Dateien wurden ausgelassen</translation>
+        </message>
+        <message>
+            <source>volume {volume} of {volumes} in one series, told apart by {told}</source>
+            <translation>Volumen {volume} von {volumes} in einer Serie, unterschieden durch {told}</translation>
+        </message>
+        <message>
+            <source>has a real-world value map that differs from its rescale; the {used} is used, which {because}: confirm which is meant</source>
+            <translation>hat eine Wertetabelle (real-world value map), die von ihrer Skalierung abweicht; verwendet wird: {used}, denn dies {because}: bestätigen, was gemeint ist</translation>
+        </message>
+        <message>
+            <source>has a real-world value map that gives neither a slope nor a table, and was not used: confirm the unit with --unit</source>
+            <translation>hat eine Wertetabelle (real-world value map) ohne Steigung und ohne Tabelle, sie wurde nicht verwendet: die Einheit bestätigen</translation>
+        </message>
+        <message>
+            <source>has a private scale factor ({factor}) that differs from its rescale and names no unit: the rescale is used; confirm which is meant</source>
+            <translation>hat einen eigenen Skalenfaktor ({factor}), der von ihrer Skalierung abweicht und keine Einheit nennt: Die Skalierung wird verwendet; bestätigen, was gemeint ist</translation>
+        </message>
+        <message>
+            <source>its slices are in different units ({units}); all were turned into {unit}</source>
+            <translation>ihre Schichten haben verschiedene Einheiten ({units}); alle wurden in {unit} umgerechnet</translation>
+        </message>
+        <message>
+            <source>this scanner writes its stiffness in {usual}; the files say {unit}, which is taken</source>
+            <translation>dieses Gerät schreibt seine Steifigkeit in {usual}; die Dateien sagen {unit}, und das wird genommen</translation>
+        </message>
+        <message>
+            <source>this scanner writes its stiffness in {usual}; the description says {unit}, which is taken: confirm it with --unit</source>
+            <translation>dieses Gerät schreibt seine Steifigkeit in {usual}; die Beschreibung sagt {unit}, und das wird genommen: bestätigen</translation>
+        </message>
+        <message>
+            <source>is called a map in {words}, but its values are said to be in {unit}, which is taken: confirm it</source>
+            <translation>heißt eine Karte in {words}, ihre Werte sollen aber in {unit} sein, und das wird genommen: bestätigen</translation>
+        </message>
+        <message>
+            <source>was taken as {role} by {by}, but {against} says {other}: check its role</source>
+            <translation>wurde nach {by} als {role} genommen, aber {against} sagt {other}: die Rolle prüfen</translation>
+        </message>
+        <message>
+            <source>{voxels} voxels of the map are marked as padding and hold no value</source>
+            <translation>{voxels} Voxel der Karte sind als Füllung gekennzeichnet und haben keinen Wert</translation>
+        </message>
+        <message>
+            <source>{voxels} voxels of the map lie outside of the stored values that its real-world value map is defined for, and hold no value</source>
+            <translation>{voxels} Voxel der Karte liegen außerhalb der gespeicherten Werte, für die ihre Wertetabelle gilt, und haben keinen Wert</translation>
+        </message>
+        <message>
+            <source>{with} of its {slices} slices say which stored values are padding, the others do not: of those every value counts; check their edges</source>
+            <translation>{with} von {slices} Schichten sagen, welche gespeicherten Werte Füllung sind, die anderen nicht: Bei diesen zählt jeder Wert; ihre Ränder prüfen</translation>
+        </message>
+        <message>
+            <source>several elastography acquisitions are here: the {role} of series {series} goes with the stiffness of series {stiffness} ({tie})</source>
+            <translation>mehrere Elastographie-Aufnahmen sind hier: {role} der Serie {series} gehört zur Steifigkeit der Serie {stiffness} ({tie})</translation>
+        </message>
+        <message>
+            <source>the {role} of series {series} was taken with the stiffness of series {stiffness} only because of the order of their series numbers: check that they belong together</source>
+            <translation>{role} der Serie {series} wurde nur wegen der Reihenfolge der Seriennummern zur Steifigkeit der Serie {stiffness} genommen: prüfen, ob sie zusammengehören</translation>
+        </message>
+        <message>
+            <source>the {role} of series {series} belongs to another acquisition than the stiffness of series {stiffness} ({tie}) and was not used; give it by hand with --role {series}={role} if it belongs to it</source>
+            <translation>{role} der Serie {series} gehört zu einer anderen Aufnahme als die Steifigkeit der Serie {stiffness} ({tie}) und wurde nicht verwendet; gehört sie doch dazu, ihr die Rolle {role} von Hand geben (Serie {series})</translation>
+        </message>
+        <message>
+            <source>several {role} series ({all}) fit the stiffness of series {stiffness} equally well: none was used; choose one by hand with --role</source>
+            <translation>mehrere Serien der Rolle {role} ({all}) passen gleich gut zur Steifigkeit der Serie {stiffness}: Keine wurde verwendet; eine von Hand wählen</translation>
+        </message>
+        <message>
+            <source>the {role} of series {series} was taken with the stiffness of series {stiffness} ({tie}), but by {against} it would be that of series {other}: check which belongs to it</source>
+            <translation>{role} der Serie {series} wurde zur Steifigkeit der Serie {stiffness} genommen ({tie}), nach {against} gehörte sie aber zu Serie {other}: prüfen, wozu sie gehört</translation>
+        </message>
+        <message>
+            <source>the {role} of series {series} and the stiffness of series {stiffness} differ in {what}: check that they belong together</source>
+            <translation>{role} der Serie {series} und die Steifigkeit der Serie {stiffness} unterscheiden sich in {what}: prüfen, ob sie zusammengehören</translation>
+        </message>
+        <message>
+            <source>the {role} of series {series} has {there} slices, the stiffness of series {stiffness} has {here}: was the transfer of the stiffness complete?</source>
+            <translation>{role} der Serie {series} hat {there} Schichten, die Steifigkeit der Serie {stiffness} hat {here}: War die Übertragung der Steifigkeit vollständig?</translation>
+        </message>
+        <message>
+            <source>{count} outlines repeat another one of their slice ({slices} slices): each counts once</source>
+            <translation>{count} Konturen wiederholen eine andere ihrer Schicht ({slices} Schichten): Jede zählt einmal</translation>
+        </message>
+        <message>
+            <source>{count} outlines overlap another one of their slice ({slices} slices): what they enclose together is the region; delete one if only one is meant</source>
+            <translation>{count} Konturen überlappen eine andere ihrer Schicht ({slices} Schichten): Was sie zusammen einschließen, ist die Region; eine löschen, wenn nur eine gemeint ist</translation>
+        </message>
+        <message>
+            <source>{count} outlines lie up to {mm} mm above or below the others of their slice: they were taken as parts of it</source>
+            <translation>{count} Konturen liegen bis zu {mm} mm über oder unter den anderen ihrer Schicht: Sie wurden als Teile davon genommen</translation>
+        </message>
+        <message>
+            <source>{count} outlines were left out: another one that overlaps them lies nearer to the middle of their slice (up to {mm} mm apart)</source>
+            <translation>{count} Konturen wurden ausgelassen: Eine andere, die sie überlappt, liegt näher an der Mitte ihrer Schicht (bis zu {mm} mm auseinander)</translation>
+        </message>
+        <message>
+            <source>{count} of {all} outlines lie on none of the image's slices and do not count</source>
+            <translation>{count} von {all} Konturen liegen auf keiner Schicht des Bildes und zählen nicht</translation>
+        </message>
+        <message>
+            <source>on {slices} slices the outlines leave nothing: each takes away what another one encloses</source>
+            <translation>auf {slices} Schichten lassen die Konturen nichts übrig: Jede nimmt weg, was eine andere einschließt</translation>
+        </message>
+        <message>
+            <source>on {slices} slices an outline inside another one leaves less than half of what that one encloses; it was taken as a hole: delete one of the two if the region was drawn twice</source>
+            <translation>auf {slices} Schichten lässt eine Kontur innerhalb einer anderen weniger als die Hälfte von deren Fläche übrig; sie wurde als Loch genommen: eine von beiden löschen, wenn die Region zweimal gezeichnet wurde</translation>
+        </message>
+        <message>
+            <source>{count} outlines are smaller than a quarter of a pixel</source>
+            <translation>{count} Konturen sind kleiner als ein Viertel eines Pixels</translation>
+        </message>
+        <message>
+            <source>{count} outlines cross themselves or run twice round a place ({slices} slices): check what they enclose</source>
+            <translation>{count} Konturen kreuzen sich selbst oder laufen zweimal um eine Stelle ({slices} Schichten): prüfen, was sie einschließen</translation>
+        </message>
+        <message>
+            <source>{missing} of {slices} elastography slices from the first to the last outlined one hold no outline and were left out; give the image that the outlines were drawn on (--mri) to have them interpolated</source>
+            <translation>{missing} von {slices} Elastographie-Schichten von der ersten bis zur letzten umrissenen haben keine Kontur und wurden ausgelassen; das Bild angeben, auf dem gezeichnet wurde, damit sie interpoliert werden</translation>
+        </message>
+        <message>
+            <source>a proposal to be corrected by hand, not a result</source>
+            <translation>ein Vorschlag, von Hand zu berichtigen, kein Ergebnis</translation>
+        </message>
+        <message>
+            <source>the proposal touches the border of the image: cut off, or leaked</source>
+            <translation>der Vorschlag berührt den Rand des Bildes: abgeschnitten oder ausgelaufen</translation>
+        </message>
+        <message>
+            <source>{count} of {shells} closed shells of the surface repeat another one: each counts once</source>
+            <translation>{count} von {shells} geschlossenen Schalen der Oberfläche wiederholen eine andere: Jede zählt einmal</translation>
+        </message>
+        <message>
+            <source>{count} of {shells} closed shells of the surface cross another one: what they enclose together is the body</source>
+            <translation>{count} von {shells} geschlossenen Schalen der Oberfläche kreuzen eine andere: Was sie zusammen einschließen, ist der Körper</translation>
+        </message>
+        <message>
+            <source>{count} of {shells} closed shells of the surface lie inside another one and are turned outwards like it: they were taken as cavities; delete them if they are none</source>
+            <translation>{count} von {shells} geschlossenen Schalen der Oberfläche liegen in einer anderen und sind wie diese nach außen gewendet: Sie wurden als Hohlräume genommen; löschen, wenn sie keine sind</translation>
+        </message>
+        <message>
+            <source>{count} of {shells} closed shells of the surface are too small to hold a cell's centre</source>
+            <translation>{count} von {shells} geschlossenen Schalen der Oberfläche sind zu klein für den Mittelpunkt einer Zelle</translation>
+        </message>
+        <message>
+            <source>the surface encloses {mL} mL and is {longest_mm} mm long if its coordinates are millimetres, which no liver is: check their unit</source>
+            <translation>die Oberfläche umschließt {mL} mL und ist {longest_mm} mm lang, wenn ihre Koordinaten Millimeter sind, wie bei keiner Leber: ihre Einheit prüfen</translation>
+        </message>
+        <message>
+            <source>there is no confidence map: every voxel of the region of interest counts</source>
+            <translation>es gibt keine Konfidenzkarte: Jedes Voxel der Region zählt</translation>
+        </message>
+        <message>
+            <source>the confidence of series {series} was not used: its slices do not lie where the elastogram's do, which lie unevenly</source>
+            <translation>die Konfidenz der Serie {series} wurde nicht verwendet: Ihre Schichten liegen nicht dort, wo die ungleichmäßigen des Elastogramms liegen</translation>
+        </message>
+        <message>
+            <source>the largest value of the confidence map is {largest}: {scale} was taken as full confidence; say which stored value means full confidence (--confidence-scale) if it is another</source>
+            <translation>der größte Wert der Konfidenzkarte ist {largest}: {scale} wurde als volle Konfidenz genommen; angeben, wenn es ein anderer ist</translation>
+        </message>
+        <message>
+            <source>the confidence map covers {percent} % of the elastogram (slices without any: {slices}); voxels without a confidence do not count</source>
+            <translation>die Konfidenzkarte deckt {percent} % des Elastogramms (Schichten ohne: {slices}); Voxel ohne Konfidenz zählen nicht</translation>
+        </message>
+        <message>
+            <source>{voxels} of {of} voxels of the region of interest have no confidence value and do not count</source>
+            <translation>{voxels} von {of} Voxeln der Region haben keinen Konfidenzwert und zählen nicht</translation>
+        </message>
+        <message>
+            <source>{voxels} of {of} voxels of the region of interest, less than a hundredth, hold no stiffness and do not count</source>
+            <translation>{voxels} von {of} Voxeln der Region, weniger als ein Hundertstel, haben keine Steifigkeit und zählen nicht</translation>
+        </message>
+        <message>
+            <source>the stiffness of slices {slices} is another order of magnitude than the median of all, {median_kPa} kPa: are they in another unit?</source>
+            <translation>die Steifigkeit der Schichten {slices} hat eine andere Größenordnung als der Median aller, {median_kPa} kPa: Sind sie in einer anderen Einheit?</translation>
+        </message>
+        <message>
+            <source>{voxels} of {of} voxels hold one and the same value, {kPa} kPa, far above the others: the ceiling of the map, or padding that nothing marks; leave them out with --exclude or --confidence if so</source>
+            <translation>{voxels} von {of} Voxeln haben ein und denselben Wert, {kPa} kPa, weit über den anderen: die Obergrenze der Karte oder ungekennzeichnete Füllung; wenn ja, auslassen</translation>
+        </message>
+        <message>
+            <source>words of the series, not a code, say that it holds {quantity}, which is taken: confirm it with --quantity</source>
+            <translation>Worte der Serie, kein Code, sagen, dass sie {quantity} enthält, und das wird genommen: bestätigen</translation>
+        </message>
+        <message>
+            <source>the series says by its code that it holds {quantity} and by its description {other}; the code is taken: confirm it with --quantity</source>
+            <translation>die Serie sagt mit ihrem Code, dass sie {quantity} enthält, und mit ihrer Beschreibung {other}; der Code wird genommen: bestätigen</translation>
+        </message>
+        <message>
+            <source>the series says that it holds {quantity}; it was taken as {asked}, as asked for</source>
+            <translation>die Serie sagt, dass sie {quantity} enthält; sie wurde wie verlangt als {asked} genommen</translation>
+        </message>
+        <message>
+            <source>the map holds the speed of shear waves; it was turned into the shear modulus with a density of {density_kg_m3} kg/m3</source>
+            <translation>die Karte enthält die Geschwindigkeit der Scherwellen; sie wurde mit einer Dichte von {density_kg_m3} kg/m³ in den Schermodul umgerechnet</translation>
+        </message>
+        <message>
+            <source>of several series, series {series} was taken as the {what}: the outline was drawn on it</source>
+            <translation>von mehreren Serien wurde Serie {series} als {what} genommen: Auf ihr wurde die Kontur gezeichnet</translation>
+        </message>
+        <message>
+            <source>the outline was drawn on series {named}, but series {taken} was taken as the {what}: check that they lie in one place</source>
+            <translation>die Kontur wurde auf Serie {named} gezeichnet, aber Serie {taken} wurde als {what} genommen: prüfen, ob sie am selben Ort liegen</translation>
+        </message>
+        <message>
+            <source>the outline names a series that it was drawn on, which is not here; series {taken} was taken as the {what}</source>
+            <translation>die Kontur nennt eine Serie, auf der sie gezeichnet wurde und die nicht hier ist; Serie {taken} wurde als {what} genommen</translation>
+        </message>
+        <message>
+            <source>the outline says that it was drawn on series {named}, but its images are those of series {series}, which is believed</source>
+            <translation>die Kontur sagt, sie sei auf Serie {named} gezeichnet, ihre Bilder sind aber die der Serie {series}, und das wird geglaubt</translation>
+        </message>
+        <message>
+            <source>{count} of {of} {what} do not lie on the image that they name, but up to {distance_mm} mm from it; they count where their coordinates are: one of the two is wrong</source>
+            <translation>{count} von {of} {what} liegen nicht auf dem Bild, das sie nennen, sondern bis zu {distance_mm} mm davon; sie zählen dort, wo ihre Koordinaten sind: Eines von beiden ist falsch</translation>
+        </message>
+        <message>
+            <source>the region of interest does not say in which frame of reference it lies: check that it is the {image}'s</source>
+            <translation>die Region sagt nicht, in welchem Bezugssystem sie liegt: prüfen, ob es das von {image} ist</translation>
+        </message>
+        <message>
+            <source>{count} structures of this name have no contours; number {number}, the only one with contours, was taken</source>
+            <translation>{count} Strukturen dieses Namens haben keine Konturen; Nummer {number}, die einzige mit Konturen, wurde genommen</translation>
+        </message>
+        <message>
+            <source>{kind} number {number} was taken as the region because it is the only one {that}, but its name says more than that: check that it is the organ itself, or choose one with --name</source>
+            <translation>{kind} Nummer {number} wurde als Region genommen, weil sie die einzige ist ({that}), ihr Name sagt aber mehr: prüfen, ob es das Organ selbst ist, oder eine andere wählen</translation>
+        </message>
+        <message>
+            <source>--name was not used: it chooses a structure or segment of a DICOM file, and the region of interest is {what}</source>
+            <translation>der Name wurde nicht verwendet: Er wählt eine Struktur oder ein Segment einer DICOM-Datei, die Region ist aber {what}</translation>
+        </message>
+        <message>
+            <source>the bar slips at {capacity_N} N after {capacity_travel_mm} mm ({stiffness} stiffness): {asked} cannot be reached at this place; choose a place where the body is thicker and level across the bar, or ask for less</source>
+            <translation>der Retraktor rutscht bei {capacity_N} N nach {capacity_travel_mm} mm ab (Steifigkeit: {stiffness}): {asked} wird an dieser Stelle nicht erreicht; eine Stelle wählen, wo die Leber dicker und quer zum Stab eben ist, oder weniger verlangen</translation>
+        </message>
+        <message>
+            <source>the surface beside the bar folds and cells turn inside out ({stiffness} stiffness): {capacity_N} N is borne, and {asked} is not reached; choose a smaller force or travel, a thicker bar, or other cells</source>
+            <translation>die Oberfläche neben dem Stab faltet sich und Zellen stülpen sich um (Steifigkeit: {stiffness}): {capacity_N} N werden getragen, {asked} wird nicht erreicht; weniger Kraft oder Weg, einen dickeren Stab oder andere Zellen wählen</translation>
+        </message>
+        <message>
+            <source>the bar cuts into the surface ({stiffness} stiffness): after {travel_mm} mm and {capacity_N} N it has drawn the cells there apart, and {asked} is not reached; choose a smaller force or travel, a thicker bar, or smaller cells</source>
+            <translation>der Stab schneidet in die Oberfläche (Steifigkeit: {stiffness}): Nach {travel_mm} mm und {capacity_N} N hat er dort die Zellen auseinandergezogen, {asked} wird nicht erreicht; weniger Kraft oder Weg, einen dickeren Stab oder kleinere Zellen wählen</translation>
+        </message>
+        <message>
+            <source>the bar bears {force_N} N at this travel ({stiffness} stiffness), and bore {capacity_N} N on its way: under a force instead of a travel it would have moved on by itself</source>
+            <translation>der Stab trägt {force_N} N bei diesem Weg (Steifigkeit: {stiffness}) und trug unterwegs {capacity_N} N: Unter einer Kraft statt eines Weges wäre er von selbst weitergerutscht</translation>
+        </message>
+        <message>
+            <source>the bar first touches the body {distance_mm} mm {side} the place given, along its hoist: it was moved there, and its travel counts from there</source>
+            <translation>der Stab berührt den Körper zuerst {distance_mm} mm {side} der angegebenen Stelle, längs seines Zuges: Er wurde dorthin gelegt, und sein Weg zählt von dort</translation>
+        </message>
+        <message>
+            <source>no equilibrium was found under the loads ({stiffness} stiffness, residual {residual} of {tolerance}); they are too large for this body, or nothing holds it: choose smaller loads or further supports</source>
+            <translation>unter den Lasten wurde kein Gleichgewicht gefunden (Steifigkeit: {stiffness}, Residuum {residual} von {tolerance}); sie sind für diesen Körper zu groß, oder nichts hält ihn: kleinere Lasten oder weitere Halterungen wählen</translation>
+        </message>
+        <message>
+            <source>the bar folds the surface: a cell there is turned inside out, and places within a cell of it are not to be trusted</source>
+            <translation>der Stab faltet die Oberfläche: Eine Zelle dort ist umgestülpt, Stellen im Umkreis einer Zelle ist nicht zu trauen</translation>
+        </message>
+        <message>
+            <source>outside corotational theory, whose strains are small: 5 % of the volume strains by more than {percent} % (limit {limit_percent} %); use hyperelastic kinematics</source>
+            <translation>außerhalb der korotationalen Theorie, deren Dehnungen klein sind: 5 % des Volumens dehnen sich um mehr als {percent} % (Grenze {limit_percent} %); hyperelastische Kinematik verwenden</translation>
+        </message>
+        <message>
+            <source>the solve did not converge ({stiffness} stiffness): {status}; these numbers are not the answer</source>
+            <translation>die Lösung ist nicht konvergiert (Steifigkeit: {stiffness}): {status}; diese Zahlen sind nicht die Antwort</translation>
+        </message>
+        <message>
+            <source>mesh-free model: {limit}</source>
+            <translation>netzfreies Modell: {limit}</translation>
+        </message>
+        <message>
+            <source>{count} of {of} probes lie outside the body and have no displacement (by their place in the list, from 0: {probes})</source>
+            <translation>{count} von {of} Messpunkten liegen außerhalb des Körpers und haben keine Verschiebung (nach ihrer Stelle in der Liste, ab 0: {probes})</translation>
+        </message>
+        <message>
+            <source>the retractor is a patch of pressure here, not a rigid bar, which is not offered for {what}; "contact": "patch" says that this is meant</source>
+            <translation>der Retraktor ist hier eine Druckfläche, kein starrer Stab, der für {what} nicht angeboten wird; "contact": "patch" sagt, dass dies gemeint ist</translation>
+        </message>
+        <message>
+            <source>"{key}" is not used in this scene: {why}</source>
+            <translation>"{key}" wird in dieser Szene nicht verwendet: {why}</translation>
+        </message>
+        <message>
+            <source>area and largest pressure of the contact depend on the size of the cells ({cell_mm} mm here): compare them between runs with cells of one size only; the force does not depend on them</source>
+            <translation>Fläche und größter Druck des Kontakts hängen von der Größe der Zellen ab (hier {cell_mm} mm): nur zwischen Rechnungen mit gleich großen Zellen vergleichen; die Kraft hängt nicht von ihnen ab</translation>
+        </message>
+        <message>
+            <source>hyperelastic kinematics use mean-dilatation hexahedra, whatever element the scene names</source>
+            <translation>hyperelastische Kinematik verwendet Hexaeder mit mittlerer Dilatation, welches Element die Szene auch nennt</translation>
+        </message>
+        <message>
+            <source>Poisson's ratio is {poisson}: a body that widens where it is stretched; soft tissue has .45 to .499</source>
+            <translation>die Querkontraktionszahl ist {poisson}: ein Körper, der breiter wird, wo er gedehnt wird; Weichgewebe hat 0.45 bis 0.499</translation>
+        </message>
+        <message>
+            <source>{what} is {value} {unit}, far from what {usually}: check the number and its unit</source>
+            <translation>{what} ist {value} {unit}, weit entfernt von dem, was {usually}: Zahl und Einheit prüfen</translation>
+        </message>
+        <message>
+            <source>the scene asks for Glisson's capsule, which acts together with a rigid bar only, and there is none ({instead}): it was left out; ask for "contact": "rigid", or leave "capsule" out</source>
+            <translation>die Szene verlangt die Glisson-Kapsel, die nur zusammen mit einem starren Stab wirkt, und einen solchen gibt es nicht ({instead}): Sie wurde ausgelassen; "contact": "rigid" verlangen oder "capsule" weglassen</translation>
+        </message>
+        <message>
+            <source>the {name} ligament was taken as two sheets of peritoneum with the tension of the capsule: {stiffness_N_per_mm} N/mm over a width of {width_mm} mm and a length of {length_mm} mm; give "stiffness_N_per_mm" where it is known</source>
+            <translation>das Band {name} wurde als zwei Blätter Bauchfell mit der Spannung der Kapsel genommen: {stiffness_N_per_mm} N/mm über {width_mm} mm Breite und {length_mm} mm Länge; "stiffness_N_per_mm" angeben, wenn bekannt</translation>
+        </message>
+        <message>
+            <source>the rigid bar in contact is not part of this export: its force acts as a pressure spread over the surface at rest instead, in linear theory</source>
+            <translation>der starre Stab im Kontakt gehört nicht zu diesem Export: Seine Kraft wirkt stattdessen als Druck, über die ruhende Oberfläche verteilt, in linearer Theorie</translation>
+        </message>
+        <message>
+            <source>{count} of the scene's supports ({what}) are not part of this export as they are: ligaments are left out, springs that only press pull as well</source>
+            <translation>{count} der Halterungen der Szene ({what}) gehören nicht so zu diesem Export, wie sie sind: Bänder werden ausgelassen, Federn, die nur drücken, ziehen auch</translation>
+        </message>
+        <message>
+            <source>{count} loads that follow their faces keep direction and size in this export</source>
+            <translation>{count} Lasten, die ihren Flächen folgen, behalten in diesem Export Richtung und Größe</translation>
+        </message>
+        <message>
+            <source>none of {places} places on the lower right lobe bears the force; the best bears {percent} % of it: this liver does not suit a retraction by a bar of this kind, or needs a smaller force</source>
+            <translation>keine von {places} Stellen am unteren rechten Lappen trägt die Kraft; die beste trägt {percent} % davon: Diese Leber eignet sich nicht für eine Retraktion mit einem solchen Stab, oder die Kraft muss kleiner sein</translation>
+        </message>
+        <message>
+            <source>the body is not stable in the linear answer: under this load it may buckle or snap through, and move far more than linear theory says; {instead}, or choose a smaller load</source>
+            <translation>der Körper ist in der linearen Antwort nicht stabil: Unter dieser Last kann er knicken oder durchschlagen und sich viel weiter bewegen, als die lineare Theorie sagt; {instead}, oder eine kleinere Last wählen</translation>
+        </message>
+        <message>
+            <source>linear theory misses up to {missed_mm} mm {where} (it is trusted below {limit_mm} mm); where that matters, {instead}</source>
+            <translation>die lineare Theorie verfehlt bis zu {missed_mm} mm {where} (unter {limit_mm} mm wird ihr getraut); wo das zählt, {instead}</translation>
+        </message>
+        <message>
+            <source>the motion had not come to rest after {seconds} s; raise "end_s", or the damping, where the state at rest is wanted</source>
+            <translation>die Bewegung war nach {seconds} s nicht zur Ruhe gekommen; "end_s" oder die Dämpfung erhöhen, wenn der Ruhezustand gewünscht ist</translation>
+        </message>
+        <message>
+            <source>the time step was shortened from {asked_ms} to {taken_ms} ms, so that {steps} steps end at {end_s} s</source>
+            <translation>der Zeitschritt wurde von {asked_ms} auf {taken_ms} ms verkürzt, damit {steps} Schritte bei {end_s} s enden</translation>
+        </message>
+        <message>
+            <source>the condensed motion misses about {error_mm} mm of the full model's at most (estimated at five moments); use another solver where that is too much</source>
+            <translation>die kondensierte Bewegung verfehlt die des vollen Modells um höchstens etwa {error_mm} mm (an fünf Zeitpunkten geschätzt); einen anderen Löser verwenden, wenn das zu viel ist</translation>
+        </message>
+        <message>
+            <source>no difference is given: the run with the {stiffness} stiffness is no answer ({reason})</source>
+            <translation>es wird kein Unterschied angegeben: Die Rechnung mit der Steifigkeit {stiffness} ist keine Antwort ({reason})</translation>
+        </message>
+        <message>
+            <source>the difference at the retractor, {at_retractor_mm} mm, is no further from {line_mm} mm than the cells may shift it ({error_mm} mm): use smaller cells before saying on which side of that line it lies</source>
+            <translation>der Unterschied am Retraktor, {at_retractor_mm} mm, ist von {line_mm} mm nicht weiter entfernt, als ihn die Zellen verschieben können ({error_mm} mm): kleinere Zellen verwenden, bevor gesagt wird, auf welcher Seite dieser Grenze er liegt</translation>
+        </message>
+        <message>
+            <source>the scene asks how sure the answer is, which is offered for a rigid bar on voxel hexahedra at rest only ({instead}): no uncertainty is given</source>
+            <translation>die Szene fragt, wie sicher die Antwort ist, was nur für einen starren Stab auf ruhenden Voxel-Hexaedern angeboten wird ({instead}): Es wird keine Unsicherheit angegeben</translation>
+        </message>
+        <message>
+            <source>how sure the answer is cannot be told: the equilibrium with the {stiffness} stiffness is at the edge of what the place bears, where the smallest change may make the bar slip or the body snap; choose a place that bears more, or a smaller force</source>
+            <translation>wie sicher die Antwort ist, lässt sich nicht sagen: Das Gleichgewicht mit der Steifigkeit {stiffness} liegt am Rand dessen, was die Stelle trägt, wo die kleinste Änderung den Stab rutschen oder den Körper durchschlagen lassen kann; eine tragfähigere Stelle oder eine kleinere Kraft wählen</translation>
+        </message>
+        <message>
+            <source>full solves of {draws} draws of all sources are {percent} % off what the first order says of them: the intervals were widened by that much, and are rough</source>
+            <translation>volle Lösungen von {draws} Ziehungen aller Quellen weichen {percent} % von dem ab, was die erste Ordnung über sie sagt: Die Intervalle wurden um so viel erweitert und sind grob</translation>
+        </message>
+        <message>
+            <source>{lost} of {draws} draws of all sources have no equilibrium near this one: within what is known of this patient the bar may slip or the body snap, which the intervals do not contain</source>
+            <translation>{lost} von {draws} Ziehungen aller Quellen haben kein Gleichgewicht in der Nähe von diesem: Nach dem, was von diesem Patienten bekannt ist, kann der Stab rutschen oder der Körper durchschlagen, was die Intervalle nicht enthalten</translation>
+        </message>
+    </context>
+    <context>
+        <name>steps</name>
+        <message>
+            <source>reading the MRI</source>
+            <translation>MRT wird gelesen</translation>
+        </message>
+        <message>
+            <source>reading the elastogram</source>
+            <translation>Elastogramm wird gelesen</translation>
+        </message>
+        <message>
+            <source>reading the stiffness map</source>
+            <translation>Steifigkeitskarte wird gelesen</translation>
+        </message>
+        <message>
+            <source>reading the outlines</source>
+            <translation>Konturen werden gelesen</translation>
+        </message>
+        <message>
+            <source>measuring the stiffness</source>
+            <translation>Steifigkeit wird gemessen</translation>
+        </message>
+        <message>
+            <source>making the cells</source>
+            <translation>Zellen werden gemacht</translation>
+        </message>
+        <message>
+            <source>finding a place for the bar</source>
+            <translation>Stelle für den Stab wird gesucht</translation>
+        </message>
+        <message>
+            <source>finding the vessels</source>
+            <translation>Gefäße werden gesucht</translation>
+        </message>
+        <message>
+            <source>placing mesh-free frames</source>
+            <translation>netzfreie Rahmen werden gesetzt</translation>
+        </message>
+        <message>
+            <source>assembling the stiffness matrix</source>
+            <translation>Steifigkeitsmatrix wird aufgestellt</translation>
+        </message>
+        <message>
+            <source>assembling the mass matrix</source>
+            <translation>Massenmatrix wird aufgestellt</translation>
+        </message>
+        <message>
+            <source>damping</source>
+            <translation>Dämpfung</translation>
+        </message>
+        <message>
+            <source>time steps</source>
+            <translation>Zeitschritte</translation>
+        </message>
+        <message>
+            <source>condensing the response</source>
+            <translation>Antwort wird kondensiert</translation>
+        </message>
+        <message>
+            <source>large deformation</source>
+            <translation>große Verformung</translation>
+        </message>
+        <message>
+            <source>Glisson's capsule</source>
+            <translation>Glisson-Kapsel</translation>
+        </message>
+        <message>
+            <source>ligaments</source>
+            <translation>Bänder</translation>
+        </message>
+        <message>
+            <source>loads that follow the surface</source>
+            <translation>Lasten, die der Oberfläche folgen</translation>
+        </message>
+        <message>
+            <source>solving with the measured stiffness</source>
+            <translation>Lösen mit gemessener Steifigkeit</translation>
+        </message>
+        <message>
+            <source>solving with the atlas stiffness</source>
+            <translation>Lösen mit Atlas-Steifigkeit</translation>
+        </message>
+        <message>
+            <source>solving in linear theory</source>
+            <translation>Lösen in linearer Theorie</translation>
+        </message>
+        <message>
+            <source>judging linear theory</source>
+            <translation>lineare Theorie wird beurteilt</translation>
+        </message>
+        <message>
+            <source>estimating the error of the cells</source>
+            <translation>Fehler der Zellen wird geschätzt</translation>
+        </message>
+        <message>
+            <source>displacements of the cells</source>
+            <translation>Verschiebungen der Zellen</translation>
+        </message>
+        <message>
+            <source>strains</source>
+            <translation>Dehnungen</translation>
+        </message>
+        <message>
+            <source>comparing both answers</source>
+            <translation>beide Antworten werden verglichen</translation>
+        </message>
+        <message>
+            <source>estimating how sure the answer is</source>
+            <translation>Sicherheit der Antwort wird geschätzt</translation>
+        </message>
+        <message>
+            <source>making the surface</source>
+            <translation>Oberfläche wird gemacht</translation>
+        </message>
+        <message>
+            <source>writing displacements</source>
+            <translation>Verschiebungen werden geschrieben</translation>
+        </message>
+        <message>
+            <source>keeping what the pictures show</source>
+            <translation>Inhalt der Bilder wird gesichert</translation>
+        </message>
+        <message>
+            <source>drawing slices</source>
+            <translation>Schichten werden gezeichnet</translation>
+        </message>
+        <message>
+            <source>drawing in 3-D</source>
+            <translation>3-D wird gezeichnet</translation>
+        </message>
+        <message>
+            <source>writing a SOFA scene</source>
+            <translation>SOFA-Szene wird geschrieben</translation>
+        </message>
+        <message>
+            <source>writing the report</source>
+            <translation>Bericht wird geschrieben</translation>
+        </message>
+        <message>
+            <source>placing the outlines</source>
+            <translation>Konturen werden gelegt</translation>
+        </message>
+        <message>
+            <source>reading files</source>
+            <translation>Dateien werden gelesen</translation>
+        </message>
+        <message>
+            <source>reading slices</source>
+            <translation>Schichten werden gelesen</translation>
+        </message>
+        <message>
+            <source>reading image headers</source>
+            <translation>Bildköpfe werden gelesen</translation>
+        </message>
+        <message>
+            <source>looking at volume files</source>
+            <translation>Volumendateien werden angesehen</translation>
+        </message>
+        <message>
+            <source>making a synthetic patient</source>
+            <translation>synthetischer Patient wird gemacht</translation>
+        </message>
+        <message>
+            <source>laying the elastogram over the MRI</source>
+            <translation>Elastogramm wird über die MRT gelegt</translation>
+        </message>
+        <message>
+            <source>comparing readers</source>
+            <translation>Befunder werden verglichen</translation>
+        </message>
+        <message>
+            <source>growing a region</source>
+            <translation>Region wächst</translation>
+        </message>
+        <message>
+            <source>assembling</source>
+            <translation>Aufstellen</translation>
+        </message>
+        <message>
+            <source>factorising</source>
+            <translation>Faktorisieren</translation>
+        </message>
+        <message>
+            <source>solving</source>
+            <translation>Lösen</translation>
+        </message>
+        <message>
+            <source>making tetrahedra</source>
+            <translation>Tetraeder werden gemacht</translation>
+        </message>
+        <message>
+            <source>drawing charts</source>
+            <translation>Diagramme werden gezeichnet</translation>
+        </message>
+        <message>
+            <source>done</source>
+            <translation>fertig</translation>
         </message>
     </context>
 </TS>

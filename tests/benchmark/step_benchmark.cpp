@@ -66,6 +66,19 @@ void sizes(benchmark::internal::Benchmark* b) {
   for (const int dofs : {1000, 10000, 100000})
     for (const int h_ms : {1, 10, 100}) b->Args({dofs, h_ms});
 }
+/// A clamped cube under a sudden traction, edges in cells, processor time.
+void voxelCube(benchmark::State& state) {
+  const Problem p = clampedBox(static_cast<int>(state.range(0)), 0.45, 1);
+  VoxelSystem system(std::make_shared<const VoxelOperator>(p.body, HexElement::Incompatible, p.supports));
+  measure(state, system, Eigen::Map<const Eigen::VectorXd>(p.f_N.data(), p.f_N.size()),
+          1e-3 * static_cast<double>(state.range(1)));
+}
+BENCHMARK(voxelCube)
+    ->ArgNames({"cells", "h_ms"})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1)
+    ->ArgsProduct({{34}, {1, 10}});
+
 BENCHMARK(voxels<Auto>)->Apply(sizes);
 BENCHMARK(voxels<BlockJacobiCg>)->Apply(sizes);
 BENCHMARK(voxels<Multigrid>)->Apply(sizes);

@@ -200,7 +200,10 @@ int main(int argc, char** argv) {
     drawsOf(scene, inputs, r, draws, t);
     truthOf(scene, inputs, p, r, t);
     std::filesystem::remove_all(folder);  // the runs above look for its files, to say which they were
-    print(who + ", first order misses " + (r.uncertainty->missedShare ? std::to_string(100 * *r.uncertainty->missedShare).substr(0, 4) + " %" : "unknown"), t);
+    print(who + ", first order misses " +
+              (r.uncertainty->missedShare ? std::to_string(100 * *r.uncertainty->missedShare).substr(0, 4) + " %"
+                                          : "unknown"),
+          t);
     add(all, t);
   }
   print("all", all);

@@ -68,6 +68,18 @@ class Contact(SceneTest):
             if d["severity"] != "note":
                 self.assertIn(d["text"], r["warnings"])
 
+    def test_a_force_that_a_soft_body_does_not_bear_ends_with_what_gave_way(self):
+        # The surface beside the bar folds before 2 N are reached: on these cells no stable state bears them.
+        soft = {"geometry": {"kind": "box", "size_mm": [80, 60, 40], "cell_mm": 2.5},
+                "material": {"shear_kPa": 1.0, "poisson": 0.45}, "supports": [{"region": {"face": "z-"}, "kind": "fixed"}],
+                "loads": [{"kind": "retractor", "at": [40, 30, 40], "axis": [0, 1, 0], "length_mm": 40, "direction": [0, 0, -1],
+                           "force": 2}]}
+        r = self.run_scene(soft, code=4)
+        gave = [d for d in r["diagnostics"] if d["code"] in ("retractor-cuts", "retractor-folds")]
+        self.assertEqual(len(gave), 1, r["diagnostics"])
+        self.assertTrue(1 < gave[0]["arguments"]["capacity_N"] < 2)
+        self.assertNotIn("not-converged", {d["code"] for d in r["diagnostics"]})
+
     def test_a_patch_is_still_there_where_it_is_asked_for_or_alone_is_offered(self):
         patch = self.run_scene({**BLOCK, "loads": [{**BAR, "contact": "patch"}], "kinematics": "linear"})
         self.assertNotIn("contact", patch)
@@ -95,18 +107,35 @@ class Contact(SceneTest):
         clamp = {"region": {"face": "x-"}, "kind": "fixed"}
         bed = {"region": {"face": "z-"}, "kind": "spring", "stiffness_kPa_per_mm": 0.2, "unilateral": True}
 
-        def tip(up, *supports):
+        def held(up, *supports, kinematics="hyperelastic"):
             load = {"kind": "traction", "region": {"face": "z+"}, "kPa": [0, 0, up]}
-            r = self.run_scene({**beam, "supports": list(supports), "loads": [load]})
-            return r["probes"][0]["u_mm"][2]
+            return self.run_scene({**beam, "supports": list(supports), "loads": [load], "kinematics": kinematics})
+
+        def tip(up, *supports):
+            return held(up, *supports)["probes"][0]["u_mm"][2]
 
         free_up, free_down = tip(0.002, clamp), tip(-0.002, clamp)
         self.assertAlmostEqual(tip(0.002, clamp, bed), free_up, delta=0.02 * free_up)
         self.assertLess(abs(tip(-0.002, clamp, bed)), 0.3 * abs(free_down))
+        chosen = held(-0.002, clamp, bed, kinematics="auto")  # linear theory has no such bed: it is not tried
+        self.assertEqual(chosen["kinematics"]["used"], "hyperelastic")
+        self.assertEqual(chosen["probes"], held(-0.002, clamp, bed)["probes"])
         process = cli("run", write_scene(self.folder, {**beam, "kinematics": "linear", "supports": [clamp, bed],
                                                        "loads": [{"kind": "body_force", "N_per_m3": [0, 0, -10]}]}),
                       "--output", self.folder / "out", "--quiet", code=3)
         self.assertIn("unilateral", process.stderr)
+
+    def test_a_body_that_only_pressing_springs_leave_free_is_refused(self):
+        # They hold along their normal: pushed onto them, the block would drift sideways; with a tangential share it is held.
+        bed = {"region": {"face": "z-"}, "kind": "spring", "stiffness_kPa_per_mm": 0.5, "unilateral": True}
+        block = {"geometry": {"kind": "box", "size_mm": [40, 40, 20], "cell_mm": 10}, "material": {"youngs_kPa": 6, "poisson": 0.4},
+                 "loads": [{"kind": "pressure", "region": {"face": "z+"}, "kPa": 0.05, "follows": True}], "kinematics": "auto"}
+        process = cli("run", write_scene(self.folder, {**block, "supports": [bed]}), "--output", self.folder / "out", "--quiet",
+                      code=3)
+        self.assertIn("free rigid", process.stderr)
+        held = self.run_scene({**block, "supports": [{**bed, "tangential": 0.1}]})
+        self.assertTrue(held["solver"]["converged"])
+        self.assertLess(math.hypot(*held["load_N"][:2]), 1e-3 * abs(held["load_N"][2]))
 
     def test_a_pressure_that_follows_turns_with_its_face(self):
         # A soft strip, pressed sideways on one face: a dead pressure bends it further than one that turns with it.

@@ -1,6 +1,7 @@
 """How sure: intervals, probability and sources of a run, in JSON, vessels.csv and the report; nothing of them unasked."""
 import csv
 import json
+import math
 import pathlib
 import tempfile
 import unittest
@@ -40,6 +41,18 @@ class Uncertainty(SceneTest):
         self.assertEqual(written["uncertainty"]["checks"], 2)
         again = self.run_scene({**COMPARED, "outputs": ["report"], "uncertainty": written["uncertainty"]})
         self.assertEqual(again["difference"]["interval95"], d["interval95"])
+
+    def test_what_the_stiffness_does_is_what_stiffer_and_softer_blocks_do(self):
+        u = self.run_scene({**COMPARED, "uncertainty": {"checks": 0}})["uncertainty"]
+        leverage = u["stiffness_leverage"]
+        self.assertEqual(leverage["figure"], u["sd_of"])
+        by = 1.02
+        apart = [self.run_scene({**COMPARED, "material": {"youngs_kPa": 6.09 * f, "poisson": 0.45}})["difference"]["at_retractor_mm"]
+                 for f in (by, 1 / by)]
+        self.assertAlmostEqual(leverage["per_10_percent_mm"], 0.1 * (apart[0] - apart[1]) / (2 * math.log(by)),
+                               delta=0.03 * abs(leverage["per_10_percent_mm"]))
+        self.assertTrue(0 < leverage["half_mL"] < 0.5 * 960)  # of a block of 960 mL
+        self.assertTrue(10 < leverage["half_within_mm"] < 80)
 
     def test_a_source_that_is_left_out_is_not_there_and_a_wider_one_widens(self):
         narrow = self.run_scene({**COMPARED, "uncertainty": {"bar_mm": 0, "bar_deg": 0, "poisson": 0, "checks": 0}})

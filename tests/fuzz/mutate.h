@@ -26,17 +26,13 @@ inline std::string mutated(std::string file, Random& random) {
   const std::uint64_t changes = 1 + random.below(4);
   for (std::uint64_t c = 0; c < changes; ++c) {
     switch (random.below(7)) {
-      case 0:
-        file[place()] = static_cast<char>(random.below(256));
-        break;
+      case 0: file[place()] = static_cast<char>(random.below(256)); break;
       case 1: {
         const std::size_t at = place();
         file[at] = static_cast<char>(file[at] ^ static_cast<char>(1U << random.below(8)));
         break;
       }
-      case 2:
-        put(place(), extremes[random.below(std::size(extremes))], random.below(2) == 0 ? 2 : 4);
-        break;
+      case 2: put(place(), extremes[random.below(std::size(extremes))], random.below(2) == 0 ? 2 : 4); break;
       case 3: {
         const std::size_t at = place();
         file.erase(at, 1 + static_cast<std::size_t>(random.below(64)));

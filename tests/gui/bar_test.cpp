@@ -100,7 +100,8 @@ class Bar : public QObject, private glisson::test::WindowBench {
     QVERIFY(live->frame().mre == glisson::retraction::LiveOutcome::Borne);
     QVERIFY(std::abs(live->frame().force_N.dot(run.hoist) - force_N) < 0.01 * force_N);
     QVERIFY(std::abs(travel_mm - run.travel_mm) < 0.2 * run.travel_mm);
-    // The mouse takes the bar where it is seen and lets it down, against the hoist as it is seen: liver and force follow.
+    // The mouse takes the bar where it is seen and lets it down, against the hoist as it is seen: liver and force
+    // follow.
     QTRY_VERIFY_WITH_TIMEOUT(view->isSettled(), wait_ms);
     const Eigen::Vector3d before = live->frame().toolMre_mm;
     const Eigen::Matrix3Xd lay = live->frame().mre_mm;

@@ -14,7 +14,7 @@ import tempfile
 import xml.etree.ElementTree as xml
 
 STRING = r'"((?:[^"\\]|\\.)*)"'
-NUMBER = re.compile(r"%L?\d+")
+NUMBER = re.compile(r"%L?\d+|\{\w+\}")
 
 
 def table_texts(root):
@@ -50,6 +50,14 @@ def sentences(root):
     return set(re.findall(r"constexpr const char\* \w+ =\s*" + STRING + ";", source))
 
 
+def diagnostic_texts(root):
+    """What core says of inputs and results, by code."""
+    source = (root / "core/base/diagnostics.def").read_text(encoding="utf-8")
+    rows = re.findall(r"^GLISSON_DIAGNOSTIC\(\w+,\s*" + STRING + r",\s*\w+,\s*((?:" + STRING.replace("(", "(?:", 1) +
+                      r"\s*)+)\)", source, re.M)
+    return {"".join(re.findall(STRING, text)).replace('\\"', '"') for _, text in rows}
+
+
 def window_texts(root):
     """The one text of the window that is a constant of the whole program."""
     source = (root / "core/base/version.h").read_text(encoding="utf-8")
@@ -83,7 +91,7 @@ def missing(root, lupdate, german):
         found += [f"{context}: {text}" for context, text in catalogue(copy)[1]]
     # These are looked up by name, so that lupdate does not see them.
     for context, texts, least in (("keymap", table_texts(root), 8), ("commands", command_texts(root), 8),
-                                  ("tools", sentences(root), 8),
+                                  ("tools", sentences(root), 8), ("diagnostics", diagnostic_texts(root), 100),
                                   ("glisson::panels::MainWindow", window_texts(root), 1)):
         if len(texts) < least:
             found.append(f"{context}: the sources were not understood; has the table another form?")
@@ -91,7 +99,7 @@ def missing(root, lupdate, german):
     # A number or name that gets lost on the way.
     for (context, source), forms in finished.items():
         for form in forms:
-            if sorted(NUMBER.findall(source)) != sorted(NUMBER.findall(form)):
+            if set(NUMBER.findall(source)) != set(NUMBER.findall(form)):
                 found.append(f"{context}: {source}: other place holders in the translation")
     return found
 
@@ -105,7 +113,7 @@ def main(arguments):
         print("\n".join(found) or "every text has its German")
         return 1 if found else 0
     text = german.read_text(encoding="utf-8")
-    for context in ("glisson::panels::ComparePage", "keymap", "commands", "tools"):
+    for context in ("glisson::panels::ComparePage", "keymap", "commands", "tools", "diagnostics"):
         start = text.index(f"<name>{context}</name>")
         source = re.search(r"<source>(.*?)</source>\s*<translation>[^<]+</translation>", text[start:], re.S)
         with tempfile.TemporaryDirectory() as folder:

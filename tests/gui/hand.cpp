@@ -33,14 +33,10 @@ void gesture(glisson::test::WindowBench& bench, glisson::Random& random) {
     case 0:
     case 1:
     case 2:
-    case 3:
-      return QTest::mouseClick(view, Qt::LeftButton, {}, at);
-    case 4:
-      return glisson::test::drag(view, at, to);
-    case 5:
-      return glisson::test::wheel(view, at, random.below(2) == 0 ? 120 : -120);
-    case 6:
-      return QTest::keyClick(view, keys[random.below(std::size(keys))]);
+    case 3: return QTest::mouseClick(view, Qt::LeftButton, {}, at);
+    case 4: return glisson::test::drag(view, at, to);
+    case 5: return glisson::test::wheel(view, at, random.below(2) == 0 ? 120 : -120);
+    case 6: return QTest::keyClick(view, keys[random.below(std::size(keys))]);
     default:
       return QTest::keyClick(view, Qt::Key_Z,
                              random.below(3) == 0 ? Qt::ControlModifier | Qt::ShiftModifier : Qt::ControlModifier);

@@ -10,7 +10,6 @@
 #include <QPushButton>
 #include <QSet>
 #include <QSlider>
-#include <QTableWidget>
 #include <QTreeWidget>
 #include <algorithm>
 #include <cmath>
@@ -67,7 +66,9 @@ class Journey : public QObject, private glisson::test::WindowBench {
     QVERIFY(session().images().stiffness->confidence);
     QCOMPARE(session().status(Step::Load).state, StepState::Done);
     QCOMPARE(window().step(), Step::Segment);
-    QVERIFY(find<QTableWidget>("seriesTable")->rowCount() >= 5);
+    auto* series = find<QTreeWidget>("seriesTree");
+    QCOMPARE(series->topLevelItemCount(), 1);  // one patient
+    QVERIFY(series->topLevelItem(0)->child(0)->childCount() >= 5);
     qInfo("longest time without an answer while opening: %.0f ms", stalls.report().max_ms);
     glisson::test::judge(stalls.report());
   }
@@ -150,8 +151,8 @@ class Journey : public QObject, private glisson::test::WindowBench {
   }
 
   void whatIsNoLiverTakesThePatch() {
-    // A prism as small as this one has no place for a rigid bar: the published patch, in linear theory, is chosen. It is
-    // also what is moved live below; what a rigid bar does is asked of a whole liver, at the end.
+    // A prism as small as this one has no place for a rigid bar: the published patch, in linear theory, is chosen. It
+    // is also what is moved live below; what a rigid bar does is asked of a whole liver, at the end.
     window().showStep(Step::Retract);
     QCOMPARE(find<QComboBox>("contactKind")->currentIndex(), 0);
     QVERIFY(!find<QWidget>("retractorSpread")->isEnabled() && find<QWidget>("capsule")->isEnabled());
@@ -283,7 +284,8 @@ class Journey : public QObject, private glisson::test::WindowBench {
     QTRY_VERIFY_WITH_TIMEOUT(std::abs(live->frame().toolMre_mm.y() - held.y() - 1.0) < 0.06, wait_ms);
     QVERIFY(find<QLabel>("liveNumbers")->text().contains("mm"));
     click("liveReset");
-    QTRY_VERIFY_WITH_TIMEOUT(live->isAtRest() && std::abs(live->frame().vesselMax_mm - run.vesselMax_mm) < close, wait_ms);
+    QTRY_VERIFY_WITH_TIMEOUT(live->isAtRest() && std::abs(live->frame().vesselMax_mm - run.vesselMax_mm) < close,
+                             wait_ms);
     click("liveButton");
     QVERIFY(!view->isLive());
     window().showStep(Step::Compare);
@@ -392,6 +394,30 @@ class Journey : public QObject, private glisson::test::WindowBench {
                                                           "overlay-largest-difference.png")));
   }
 
+  void theRetractionIsFilmed() {
+    auto* compare = window().findChild<glisson::panels::ComparePage*>();
+    QVERIFY(find<QPushButton>("videoButton")->isEnabled());
+    QSignalSpy exported(compare, &glisson::panels::ComparePage::exported);
+    glisson::session::VideoWish wish;
+    wish.width = 320;
+    wish.height = 240;
+    wish.moving = 5;
+    wish.resting = wish.holding = 2;
+    session().exportVideo(path("film.webm"), wish);
+    QVERIFY(exported.wait(wait_ms));
+    QVERIFY2(exported.front()[1].toString().isEmpty(), qPrintable(exported.front()[1].toString()));
+    QVERIFY(std::filesystem::file_size(folder() / "film.webm") > 2000);
+    // Broken off, nothing of it stays.
+    exported.clear();
+    QSignalSpy progress(&session(), &Session::progressed);
+    compare->filmTo(path("cancelled.mp4"));
+    QVERIFY(progress.count() > 0 || progress.wait(wait_ms));
+    click("cancelButton");
+    QVERIFY(exported.count() > 0 || exported.wait(wait_ms));
+    QCOMPARE(exported.front()[0].toInt(), 0);
+    QVERIFY(!std::filesystem::exists(folder() / "cancelled.mp4"));
+  }
+
   void anExportShowsHowFarItIsAndCanBeCancelled() {
     auto* compare = window().findChild<glisson::panels::ComparePage*>();
     QSignalSpy exported(compare, &glisson::panels::ComparePage::exported);
@@ -405,6 +431,53 @@ class Journey : public QObject, private glisson::test::WindowBench {
     QVERIFY(!exported.front()[1].toString().isEmpty());
     QVERIFY2(std::filesystem::is_empty(folder() / "cancelled"), "half an export would pass for a whole one");
     QVERIFY(find<QPushButton>("exportButton")->isEnabled());
+  }
+
+  void aSavedCaseShowsItsLastRunWhenItIsOpenedAgain() {
+    auto* compare = window().findChild<glisson::panels::ComparePage*>();
+    const char* shown[] = {"differenceAtRetractor", "differenceNumbers", "vesselNumbers", "validityText",
+                           "solutionNumbers"};
+    QStringList before;
+    for (const char* name : shown) before << find<QLabel>(name)->text();
+    const auto numbers = session().result();
+    session().saveCase(path("kept"));
+    QSignalSpy ran(&session(), &Session::runFinished);
+    QSignalSpy drawn(compare, &glisson::panels::ComparePage::overlayShown);
+    QVERIFY(openPath(path("kept")));
+    QVERIFY(session().result() && session().result() != numbers && session().picture());
+    QCOMPARE(session().result()->json, numbers->json);
+    QCOMPARE(session().status(Step::Compare).state, StepState::Done);
+    QVERIFY(drawn.count() > 0 || drawn.wait(wait_ms));
+    for (std::size_t n = 0; n < std::size(shown); ++n)
+      QCOMPARE(find<QLabel>(shown[n])->text(), before[static_cast<qsizetype>(n)]);
+    QVERIFY2(ran.isEmpty(), "nothing was solved again");
+    // The tool can be taken at once, and the report is that of the run.
+    auto* live = window().findChild<glisson::panels::LiveBar*>();
+    QTRY_VERIFY_WITH_TIMEOUT(live->isReady(), wait_ms);
+    QSignalSpy exported(compare, &glisson::panels::ComparePage::exported);
+    compare->exportTo(path("exported-again"));
+    QVERIFY(exported.wait(wait_ms));
+    QVERIFY2(exported.front()[1].toString().isEmpty(), qPrintable(exported.front()[1].toString()));
+    QCOMPARE(QString::fromStdString(glisson::sha256OfFile(folder() / "exported-again" / "report.html")),
+             QString::fromStdString(glisson::sha256OfFile(folder() / "exported" / "report.html")));
+    // One byte of it changed: the case opens, and says that it must be run again.
+    QFile file(path("kept") + "/last-run/results/result.glisson");
+    QVERIFY(file.open(QIODevice::ReadWrite) && file.seek(file.size() / 2));
+    char byte = 0;
+    QVERIFY(file.peek(&byte, 1) == 1);
+    byte = static_cast<char>(byte ^ 1);
+    QVERIFY(file.write(&byte, 1) == 1);
+    file.close();
+    QSignalSpy said(&session(), &Session::message);
+    QVERIFY(openPath(path("kept")));
+    QVERIFY(!session().result() && session().images().mri && session().acceptedCount() > 0);
+    QVERIFY(std::any_of(said.begin(), said.end(),
+                        [](const auto& text) { return text.front().toString().contains("run the case again"); }));
+    byte = static_cast<char>(byte ^ 1);
+    QVERIFY(file.open(QIODevice::ReadWrite) && file.seek(file.size() / 2) && file.write(&byte, 1) == 1);
+    file.close();
+    QVERIFY(openPath(path("kept")) && session().result());
+    window().showStep(Step::Compare);
   }
 
   void theCommandLineGivesTheSameNumbers() {

@@ -2,8 +2,9 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QStatusBar>
-#include <QTableWidget>
+#include <QTreeWidget>
 
+#include "panels/series_tree.h"
 #include "window_bench.h"
 
 namespace {
@@ -148,18 +149,21 @@ class Outlines : public QObject, private glisson::test::WindowBench {
   void aCorrectedRoleStaysOnItsPageWhichMarksWhatIsInUse() {
     using glisson::session::Step;
     window().showStep(Step::Load);
-    auto* table = find<QTableWidget>("seriesTable");
+    using glisson::panels::SeriesTree;
+    auto* tree = find<SeriesTree>("seriesTree");
     const int mri = session().images().mriSeries, map = session().images().stiffnessSeries;
-    for (int row = 0; row < table->rowCount(); ++row)
-      QCOMPARE(table->item(row, 0)->text().startsWith(QStringLiteral("✓")), row == mri || row == map);
-    auto* role = table->cellWidget(map, 2)->findChild<QComboBox*>();
+    const int confidence = session().images().confidenceSeries;
+    for (int series = 0; series < static_cast<int>(session().scan().series.size()); ++series)
+      QCOMPARE(tree->itemOf(series)->checkState(SeriesTree::Use) == Qt::Checked,
+               series == mri || series == map || series == confidence);
+    auto* role = tree->itemWidget(tree->itemOf(map), SeriesTree::Role)->findChild<QComboBox*>();
     QVERIFY(role);
     QSignalSpy loaded(&session(), &glisson::session::Session::loaded);
     role->setCurrentIndex(role->findData(static_cast<int>(glisson::dicom::SeriesRole::Other)));
     emit role->activated(role->currentIndex());
     QVERIFY(loaded.wait(glisson::test::wait_ms));
     QVERIFY(!session().images().stiffness && find<QWidget>("toSegmentButton")->isVisible());
-    QVERIFY(!table->item(map, 0)->text().startsWith(QStringLiteral("✓")));
+    QCOMPARE(tree->itemOf(map)->checkState(SeriesTree::Use), Qt::Unchecked);
     click("toSegmentButton");
     QVERIFY(this->mri()->isVisible());
   }

@@ -89,18 +89,12 @@ class RandomEvents : public QObject, private glisson::test::WindowBench {
     switch (below(9)) {
       case 0:
       case 1:
-      case 2:
-        return QTest::mouseClick(view, chance(0.95) ? Qt::LeftButton : Qt::RightButton, modifiers, at);
-      case 3:
-        return drag(view, at, to, Qt::LeftButton, modifiers);
-      case 4:
-        return drag(view, at, to, chance(0.5) ? Qt::RightButton : Qt::MiddleButton);
-      case 5:
-        return wheel(view, at, chance(0.5) ? 120 : -120, modifiers);
-      case 6:
-        return QTest::keyClick(view, anyKey());
-      case 7:
-        return QTest::keyClick(view, withCtrl[below(static_cast<int>(std::size(withCtrl)))], Qt::ControlModifier);
+      case 2: return QTest::mouseClick(view, chance(0.95) ? Qt::LeftButton : Qt::RightButton, modifiers, at);
+      case 3: return drag(view, at, to, Qt::LeftButton, modifiers);
+      case 4: return drag(view, at, to, chance(0.5) ? Qt::RightButton : Qt::MiddleButton);
+      case 5: return wheel(view, at, chance(0.5) ? 120 : -120, modifiers);
+      case 6: return QTest::keyClick(view, anyKey());
+      case 7: return QTest::keyClick(view, withCtrl[below(static_cast<int>(std::size(withCtrl)))], Qt::ControlModifier);
       default:
         mouse(view, QEvent::MouseButtonDblClick, at, Qt::LeftButton, Qt::LeftButton);
         mouse(view, QEvent::MouseButtonRelease, at, Qt::LeftButton, Qt::NoButton);
@@ -119,14 +113,10 @@ class RandomEvents : public QObject, private glisson::test::WindowBench {
     switch (below(6)) {
       case 0:
       case 1:
-      case 2:
-        return QTest::mouseClick(w, chance(0.9) ? Qt::LeftButton : Qt::RightButton, {}, at);
-      case 3:
-        return drag(w, at, to);
-      case 4:
-        return wheel(w, at, chance(0.5) ? 120 : -120);
-      default:
-        return QTest::keyClick(w, anyKey());
+      case 2: return QTest::mouseClick(w, chance(0.9) ? Qt::LeftButton : Qt::RightButton, {}, at);
+      case 3: return drag(w, at, to);
+      case 4: return wheel(w, at, chance(0.5) ? 120 : -120);
+      default: return QTest::keyClick(w, anyKey());
     }
   }
 

@@ -43,7 +43,8 @@ inline void drag(QWidget* on, const QPoint& from, const QPoint& to, Qt::MouseBut
 }
 
 /// The window may not freeze: no look at the events waits longer than two seconds, on any machine. Its promise of 50 ms
-/// for 99 % and 100 ms for all is a measurement: it is judged where GLISSON_JUDGE_ANSWERS asks for it, on an idle machine.
+/// for 99 % and 100 ms for all is a measurement: it is judged where GLISSON_JUDGE_ANSWERS asks for it, on an idle
+/// machine.
 inline void judge(const session::StallMonitor::Report& answer) {
   QVERIFY2(answer.max_ms <= 2000.0, qPrintable(QString::number(answer.max_ms)));
   if (!qEnvironmentVariableIsSet("GLISSON_JUDGE_ANSWERS")) return;
@@ -159,8 +160,8 @@ class WindowBench {
       QTest::mouseMove(mri(), at);
       QTest::mouseClick(mri(), Qt::LeftButton, {}, at);
     }
-    // Where the first vertex is seen now. The display tells of the mouse when it comes to it: on a busy machine later than
-    // mouseMove() waits.
+    // Where the first vertex is seen now. The display tells of the mouse when it comes to it: on a busy machine later
+    // than mouseMove() waits.
     const QPoint first = vertex(0) + QPoint(3, 3);
     QTest::mouseMove(mri(), first);
     QTRY_VERIFY2(session().tool().closes(),

@@ -134,10 +134,18 @@ QWidget* ComparePage::makeSide() {
                    tr("Slices, difference map, 3-D and box plot in these colours, report and record of the run"));
   export_->setEnabled(false);
   side->addWidget(export_);
+  video_ = button("videoButton", tr("Film the retraction…"), {},
+                  tr("The 3-D view from rest to the end, as WebM or MP4, with this camera and these colours"));
+  video_->setEnabled(false);
+  side->addWidget(video_);
   connect(export_, &QPushButton::clicked, this, &ComparePage::askWhereTo);
+  connect(video_, &QPushButton::clicked, this, &ComparePage::askForVideo);
   connect(&session_, &session::Session::exported, this, &ComparePage::exported);
-  connect(&session_, &session::Session::statusChanged, this,
-          [this] { export_->setEnabled(session_.picture() && !session_.busy()); });
+  connect(&session_, &session::Session::statusChanged, this, [this] {
+    const bool can = session_.picture() && !session_.busy();
+    export_->setEnabled(can);
+    video_->setEnabled(can && session_.picture()->valid);
+  });
   return frame;
 }
 
@@ -321,10 +329,8 @@ QString ComparePage::verdictOf(pipeline::Significance significance) {
   switch (significance) {
     case pipeline::Significance::Open:
       return tr("At the retractor it cannot be told from the 5 mm that matter clinically: use smaller cells.");
-    case pipeline::Significance::Beyond:
-      return tr("At the retractor not below the 5 mm that matter clinically.");
-    case pipeline::Significance::Below:
-      break;
+    case pipeline::Significance::Beyond: return tr("At the retractor not below the 5 mm that matter clinically.");
+    case pipeline::Significance::Below: break;
   }
   return tr("At the retractor below the 5 mm that matter clinically.");
 }

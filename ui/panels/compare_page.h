@@ -39,6 +39,8 @@ class ComparePage : public QWidget {
   views::SceneView* sceneView() const { return scene_; }
   /// Pictures in the palette shown, the report and the record of the run, into a folder, by a worker.
   void exportTo(const QString& folder);
+  /// A film of the retraction as the 3-D view shows it, .webm or .mp4, by a worker; ends with exported.
+  void filmTo(const QString& file);
 
  signals:
   void overlayShown(int slice);                     ///< a slice overlay was drawn and is on screen
@@ -58,6 +60,7 @@ class ComparePage : public QWidget {
   void showWhatThereIs();
   QWidget* makeDisplay();
   void askWhereTo();
+  void askForVideo();
   QWidget* makeVesselList();
   QString trust() const;
   static QString verdictOf(pipeline::Significance significance);
@@ -77,7 +80,7 @@ class ComparePage : public QWidget {
   QTreeWidget* list_;
   ContactTable* contact_;
   QCheckBox *arrows_, *magnify_;
-  QPushButton* export_;
+  QPushButton *export_, *video_ = nullptr;
   QSlider* slice_;
   QLabel *sliceText_, *retractor_, *retractorError_, *numbers_, *vessels_, *validity_;
   QComboBox *colours_, *view_, *what_, *chart_, *shown_;

@@ -1,4 +1,5 @@
 // Compare: vessels beyond 5 mm, the box plot, what is said of trust, and the export.
+#include <QCheckBox>
 #include <QComboBox>
 #include <QFileDialog>
 #include <QHeaderView>
@@ -10,6 +11,7 @@
 #include "panels/compare_page.h"
 #include "panels/form.h"
 #include "pipeline/pictures.h"
+#include "session/said.h"
 #include "session/session.h"
 #include "views/picture_view.h"
 #include "views/scene_view.h"
@@ -42,6 +44,7 @@ void ComparePage::showVessels() {
   const auto result = session_.result();
   const auto picture = session_.picture();
   export_->setEnabled(result && picture && !session_.busy());
+  video_->setEnabled(export_->isEnabled() && picture->valid);
   if (result && picture) places_ = session::vesselsBeyond(*result, *picture);
   list_->setVisible(!places_.empty());
   QList<QTreeWidgetItem*> rows;
@@ -121,7 +124,7 @@ QString ComparePage::trust() const {
   const auto result = session_.result();
   QStringList words;
   if (session_.resultIsStale()) words << tr("Something has changed since this run: run again.");
-  for (const std::string& w : result->primary.validity) words << sentence(w);
+  for (const QString& w : session::said(result->primary.validity, result->primary.doubts)) words << sentence(w);
   if (words.isEmpty())
     words << (result->primary.kinematics == retraction::Kinematics::Linear
                   ? tr("No warning: strains and rotations are within linear theory.")
@@ -147,7 +150,7 @@ QString ComparePage::trust() const {
       words << tr("How much the size of the cells matters is not known: %1").arg(withStop(why));
     }
   }
-  for (const std::string& w : result->warnings) words << sentence(w);
+  for (const QString& w : session::said(result->warnings, result->diagnostics)) words << sentence(w);
   words.removeDuplicates();
   return words.join(QStringLiteral("\n"));
 }
@@ -155,6 +158,21 @@ QString ComparePage::trust() const {
 void ComparePage::askWhereTo() {
   const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder for pictures and report"));
   if (!folder.isEmpty()) exportTo(folder);
+}
+
+void ComparePage::askForVideo() {
+  const QString file = QFileDialog::getSaveFileName(this, tr("Film the retraction"), QStringLiteral("retraction.webm"),
+                                                    tr("Videos (*.webm *.mp4)"));
+  if (!file.isEmpty()) filmTo(file);
+}
+
+void ComparePage::filmTo(const QString& file) {
+  session::VideoWish wish;
+  wish.shown = static_cast<render::Shown3D>(shown_->currentIndex());
+  wish.palette = palette_();
+  wish.view = static_cast<render::View3D>(view_->currentData().toInt());
+  wish.arrows = arrows_->isChecked();
+  session_.exportVideo(file, wish);
 }
 
 void ComparePage::exportTo(const QString& folder) {

@@ -4,6 +4,7 @@
 #include <QTreeWidget>
 
 #include "panels/form.h"
+#include "session/said.h"
 #include "session/session.h"
 
 namespace glisson::panels {
@@ -20,15 +21,11 @@ QString verdict(const RigidContact& c) {
   switch (c.outcome) {
     case mechanics::ContactOutcome::Reached:
       return c.capacityExceeded ? ContactTable::tr("past its largest force") : ContactTable::tr("bears");
-    case mechanics::ContactOutcome::Slips:
-      return ContactTable::tr("slips");
-    case mechanics::ContactOutcome::Folds:
-      return ContactTable::tr("folds the liver");
-    case mechanics::ContactOutcome::Cuts:
-      return ContactTable::tr("cuts into the liver");
+    case mechanics::ContactOutcome::Slips: return ContactTable::tr("slips");
+    case mechanics::ContactOutcome::Folds: return ContactTable::tr("folds the liver");
+    case mechanics::ContactOutcome::Cuts: return ContactTable::tr("cuts into the liver");
     case mechanics::ContactOutcome::LoadsNotBorne:
-    case mechanics::ContactOutcome::Stopped:
-      break;
+    case mechanics::ContactOutcome::Stopped: break;
   }
   return ContactTable::tr("no answer");
 }
@@ -39,13 +36,10 @@ QString capacity(const RigidContact& c) {
 
 QString nameOf(retraction::Kinematics kinematics) {
   switch (kinematics) {
-    case retraction::Kinematics::Corotational:
-      return ContactTable::tr("corotational");
-    case retraction::Kinematics::Hyperelastic:
-      return ContactTable::tr("hyperelastic");
+    case retraction::Kinematics::Corotational: return ContactTable::tr("corotational");
+    case retraction::Kinematics::Hyperelastic: return ContactTable::tr("hyperelastic");
     case retraction::Kinematics::Linear:
-    case retraction::Kinematics::Auto:
-      break;
+    case retraction::Kinematics::Auto: break;
   }
   return ContactTable::tr("linear");
 }
@@ -57,7 +51,7 @@ QString whyNoDifference(const pipeline::RunResult& result) {
   for (const Diagnostic& d : result.diagnostics)
     if (d.code == DiagnosticCode::DifferenceWithheld || d.code == DiagnosticCode::RetractorSlips ||
         d.code == DiagnosticCode::RetractorFolds || d.code == DiagnosticCode::RetractorCuts)
-      words << sentence(d.text());
+      words << sentence(session::said(d));
   return words.join(QLatin1Char('\n'));
 }
 

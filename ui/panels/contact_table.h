@@ -17,8 +17,8 @@ namespace glisson::panels {
 /// Why the two runs of a result are not compared, in sentences; empty where they are.
 QString whyNoDifference(const pipeline::RunResult& result);
 
-/// What bar and liver do to each other in the last run, with either stiffness: travel, force, area, pressure, whether the
-/// place bears; how far the two travels differ, or why no difference is given; the kinematics used, and why.
+/// What bar and liver do to each other in the last run, with either stiffness: travel, force, area, pressure, whether
+/// the place bears; how far the two travels differ, or why no difference is given; the kinematics used, and why.
 class ContactTable : public QWidget {
   Q_OBJECT
  public:

@@ -30,10 +30,12 @@ inline QString withStop(QString text) {
   return text;
 }
 /// What the numerics say, as a sentence of its own.
+inline QString sentence(QString text) {
+  if (!text.isEmpty()) text[0] = text[0].toUpper();
+  return withStop(std::move(text));
+}
 inline QString sentence(const std::string& text) {
-  QString s = QString::fromStdString(text);
-  if (!s.isEmpty()) s[0] = s[0].toUpper();
-  return withStop(std::move(s));
+  return sentence(QString::fromStdString(text));
 }
 
 /// A number with its unit.

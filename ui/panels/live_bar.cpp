@@ -62,8 +62,9 @@ LiveBar::LiveBar(session::Session& session, views::SceneView& scene, QWidget* pa
   comparison_->setAccessibleName(tr("What both livers share"));
   comparison_->addItem(tr("equal force"), QVariant::fromValue(static_cast<int>(session::LiveComparison::EqualForce)));
   comparison_->addItem(tr("equal travel"), QVariant::fromValue(static_cast<int>(session::LiveComparison::EqualTravel)));
-  comparison_->setToolTip(tr("Equal force: the liver with textbook stiffness is pulled as hard as the measured one, as in "
-                             "the run. Equal travel: the tool goes as far in both"));
+  comparison_->setToolTip(
+      tr("Equal force: the liver with textbook stiffness is pulled as hard as the measured one, as in "
+         "the run. Equal travel: the tool goes as far in both"));
   comparison_->setEnabled(false);
   row->addWidget(comparison_);
   row->addWidget(reset_);
@@ -111,7 +112,8 @@ void LiveBar::build() {
   auto made = std::make_shared<std::unique_ptr<session::LivePair>>();
   worker_.start(
       [made, result, picture,
-       file = std::filesystem::path(session_.runFolder().toStdString()) / "scene.json"](const Progress& progress) {
+       file = std::filesystem::path(session_.runFolder().toStdString()).parent_path() /
+              "case.json"](const Progress& progress) {
         *made = std::make_unique<session::LivePair>(file, result->placed, *picture, result->landmarks_mm, progress);
       },
       [this, made](std::exception_ptr failure) {

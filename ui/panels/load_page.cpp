@@ -1,54 +1,24 @@
 #include "panels/load_page.h"
 
-#include <QComboBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QSettings>
 #include <QStackedWidget>
-#include <QTableWidget>
 #include <QTreeWidget>
-#include <algorithm>
-#include <array>
-#include <memory>
 
-#include "dicom/thumbnail.h"
 #include "panels/form.h"
+#include "panels/region_list.h"
+#include "panels/series_tree.h"
 #include "session/session.h"
 
 namespace glisson::panels {
-
-namespace {
-
-using dicom::SeriesRole;
-constexpr std::array roles = {SeriesRole::Anatomical, SeriesRole::Magnitude,  SeriesRole::Wave,
-                              SeriesRole::Stiffness,  SeriesRole::Confidence, SeriesRole::Phase,
-                              SeriesRole::ColourCopy, SeriesRole::Other};
-
-constexpr int thumbnail_px = 56;
-
-QTableWidgetItem* cell(const QString& text, const QString& tip = {}) {
-  auto* item = new QTableWidgetItem(text);
-  item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
-  item->setToolTip(tip.isEmpty() ? text : tip);
-  return item;
-}
-
-QString sizeText(const dicom::Series& series) {
-  return QStringLiteral("%1 × %2 × %3").arg(series.grid.size.x()).arg(series.grid.size.y()).arg(series.grid.size.z());
-}
-
-QString spacingText(const dicom::Series& series) {
-  const Eigen::Vector3d& s = series.grid.spacing_mm;
-  return QStringLiteral("%1 × %2 × %3 mm").arg(s.x(), 0, 'g', 3).arg(s.y(), 0, 'g', 3).arg(s.z(), 0, 'g', 3);
-}
-
-}  // namespace
 
 LoadPage::LoadPage(session::Session& session, QWidget* parent)
     : QWidget(parent),
       session_(session),
       stack_(new QStackedWidget),
-      table_(new QTableWidget),
+      tree_(new SeriesTree(session)),
+      regions_(new RegionList(session)),
       skipped_(new QTreeWidget),
       summary_(labelled({}, "faint")),
       noticeText_(labelled({}, "text")),
@@ -71,7 +41,11 @@ LoadPage::LoadPage(session::Session& session, QWidget* parent)
   stack_->addWidget(makeWelcome());
   stack_->addWidget(makeTable());
   connect(&session_, &session::Session::loaded, this, &LoadPage::fill);
-  connect(&session_, &session::Session::workStarted, this, [this] { correcting_ = false; });
+  connect(regions_, &RegionList::wanted, this, &LoadPage::regionWanted);
+}
+
+bool LoadPage::correcting() const {
+  return tree_->correcting();
 }
 
 QWidget* LoadPage::makeWelcome() {
@@ -79,7 +53,7 @@ QWidget* LoadPage::makeWelcome() {
   auto* outer = new QVBoxLayout(page);
   auto* card = new QFrame;
   card->setProperty("role", "card");
-  card->setFixedWidth(560);
+  card->setFixedWidth(720);
   auto* layout = new QVBoxLayout(card);
   layout->setContentsMargins(40, 36, 40, 36);
   layout->setSpacing(14);
@@ -89,8 +63,9 @@ QWidget* LoadPage::makeWelcome() {
   auto* title = labelled(tr("Open a patient"), "heading");
   title->setAlignment(Qt::AlignHCenter);
   layout->addWidget(title);
-  auto* text = labelled(tr("A DICOM folder with an abdominal MRI and an MR elastogram. Drop it here, or start with a "
-                           "synthetic patient to look around."),
+  auto* text = labelled(tr("A DICOM folder with an abdominal MRI and an MR elastogram, or NIfTI, NRRD and MetaImage "
+                           "volumes, masks and stiffness maps. Drop them here together, or start with a synthetic "
+                           "patient to look around."),
                         "faint");
   text->setAlignment(Qt::AlignHCenter);
   layout->addWidget(text);
@@ -100,9 +75,13 @@ QWidget* LoadPage::makeWelcome() {
   open->setProperty("primary", true);
   auto* synthetic = button("syntheticButton", tr("Synthetic patient"), QStringLiteral("patient"),
                            tr("Makes a synthetic patient as DICOM and opens it (Ctrl+Shift+N)"));
+  auto* files = button("openFilesButton", tr("Open files…"), QStringLiteral("import"),
+                       tr("Volumes, masks, maps, an archive or a case (Ctrl+Shift+O)"));
   row->addWidget(open);
+  row->addWidget(files);
   row->addWidget(synthetic);
   layout->addLayout(row);
+  connect(files, &QPushButton::clicked, this, &LoadPage::filesWanted);
   const QStringList recent = QSettings().value(QStringLiteral("recent")).toStringList().mid(0, 4);
   if (!recent.isEmpty()) layout->addWidget(section(tr("Recent")));
   for (const QString& path : recent) {
@@ -138,24 +117,10 @@ QWidget* LoadPage::makeTable() {
   head->addWidget(next_, 0, Qt::AlignTop);
   connect(next_, &QPushButton::clicked, this, &LoadPage::segmentWanted);
   layout->addLayout(head);
-  table_->setObjectName(QStringLiteral("seriesTable"));
-  table_->setColumnCount(7);
-  table_->setHorizontalHeaderLabels(
-      {tr("No."), tr("Description"), tr("Role"), tr("Why"), tr("Voxels"), tr("Spacing"), tr("Warnings")});
-  table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(thumbnail_px + 8);
-  table_->setIconSize({thumbnail_px, thumbnail_px});
-  table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-  table_->setShowGrid(false);
-  table_->setAlternatingRowColors(true);
-  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table_->horizontalHeader()->setSectionResizeMode(3, QHeaderView::Stretch);
-  table_->horizontalHeader()->setSectionResizeMode(6, QHeaderView::Interactive);
-  table_->setColumnWidth(6, 220);
-  table_->horizontalHeader()->setSectionResizeMode(2, QHeaderView::Fixed);
-  table_->setColumnWidth(2, 150);
-  layout->addWidget(table_, 3);
+  layout->addWidget(tree_, 3);
+  regionsHead_ = section(tr("Outlines and masks beside the images"));
+  layout->addWidget(regionsHead_);
+  layout->addWidget(regions_);
   layout->addWidget(section(tr("Files left out")));
   skipped_->setObjectName(QStringLiteral("skippedFiles"));
   skipped_->setHeaderLabels({tr("File"), tr("Reason")});
@@ -169,7 +134,11 @@ void LoadPage::showNotice() {
   const session::StepStatus status = session_.status(session::Step::Load);
   const std::optional<session::Question>& question = session_.images().question;
   QString text;
-  if (status.state == session::StepState::Failed)
+  const std::optional<session::Refusal>& refusal = session_.refusal();
+  if (refusal) {
+    text = tr("“%1” was not opened: %2").arg(refusal->what, refusal->reason);
+    if (session_.images().mri) text += QLatin1Char('\n') + tr("What was open before is still open.");
+  } else if (status.state == session::StepState::Failed)
     text = tr("Not opened: %1").arg(status.detail);
   else if (question && status.state != session::StepState::Running)
     text = question->kind == session::Question::Kind::None
@@ -177,85 +146,24 @@ void LoadPage::showNotice() {
                : tr("%1 The elastogram is left out until this is answered.").arg(question->text);
   notice_->setVisible(!text.isEmpty());
   noticeText_->setText(text);
-  answer_->setVisible(question && question->kind != session::Question::Kind::None && !session_.busy());
+  noticeText_->setTextFormat(Qt::PlainText);  // names of files are in it
+  answer_->setVisible(!refusal && question && question->kind != session::Question::Kind::None && !session_.busy());
 }
 
 void LoadPage::fill() {
   const dicom::ScanResult& scan = session_.scan();
   stack_->setCurrentIndex(1);
-  summary_->setText(tr("%1 series, %2 files left out. ✓: in use. Correct a role where the guess is wrong.")
+  summary_->setText(tr("%1 series, %2 files left out. Tick the series to be used; correct a role where it is wrong.")
                         .arg(static_cast<qulonglong>(scan.series.size()))
                         .arg(static_cast<qulonglong>(scan.skipped.size())));
-  const session::OpenImages& images = session_.images();
-  next_->setEnabled(images.mri != nullptr);
-  table_->setRowCount(static_cast<int>(scan.series.size()));
-  for (int row = 0; row < table_->rowCount(); ++row) {
-    const dicom::Series& s = scan.series[static_cast<std::size_t>(row)];
-    const bool drawnOn = images.mri && row == images.mriSeries;
-    const bool measured = images.stiffness && row == images.stiffnessSeries;
-    const QString use =
-        drawnOn ? tr("In use: the MRI that is drawn on") : tr("In use: the elastogram that is measured");
-    const bool used = drawnOn || measured;
-    table_->setItem(
-        row, 0, cell((used ? QStringLiteral("✓ ") : QString()) + QString::number(s.number), used ? use : QString()));
-    table_->setItem(row, 1, cell(QString::fromStdString(s.description)));
-    QFont bold = table_->font();
-    bold.setBold(used);
-    for (const int column : {0, 1}) table_->item(row, column)->setFont(bold);
-    auto* role = new QComboBox;
-    for (const SeriesRole r : roles) role->addItem(QString::fromStdString(dicom::name(r)), static_cast<int>(r));
-    role->setCurrentIndex(role->findData(static_cast<int>(s.role)));
-    role->setEnabled(!s.error);
-    connect(role, &QComboBox::activated, this, [this, role, row] {
-      session_.setRole(row, static_cast<SeriesRole>(role->currentData().toInt()));
-      correcting_ = session_.busy();
-    });
-    auto* place = new QWidget;  // else the control would be as high as the thumbnail
-    auto* middle = new QHBoxLayout(place);
-    middle->setContentsMargins(4, 0, 4, 0);
-    middle->addWidget(role);
-    table_->setCellWidget(row, 2, place);
-    table_->setItem(row, 3, cell(QString::fromStdString(s.error ? *s.error : s.roleReason)));
-    table_->setItem(row, 4, cell(sizeText(s)));
-    table_->setItem(row, 5, cell(spacingText(s)));
-    QStringList warnings;
-    for (const std::string& w : s.warnings) warnings << QString::fromStdString(w);
-    table_->setItem(row, 6, cell(warnings.join(QStringLiteral("; ")), warnings.join(QLatin1Char('\n'))));
-  }
-  drawThumbnails();
+  next_->setEnabled(session_.images().mri != nullptr);
+  tree_->fill();
+  regions_->fill();
+  regionsHead_->setVisible(!session_.regions().empty());
   skipped_->clear();
   for (const dicom::SkippedFile& f : scan.skipped)
     new QTreeWidgetItem(skipped_,
                         {QString::fromStdString(f.file.filename().string()), QString::fromStdString(f.reason)});
-}
-
-// The middle slice of every series, read and averaged down by a worker.
-void LoadPage::drawThumbnails() {
-  if (painter_.busy()) return;
-  auto pictures = std::make_shared<std::vector<dicom::Thumbnail>>();
-  const int size = qRound(thumbnail_px * devicePixelRatioF());
-  const QString path = session_.path();
-  painter_.start(
-      [pictures, size, series = session_.scan().series](const Progress& progress) {
-        for (const dicom::Series& s : series) {
-          progress.check();
-          pictures->push_back(dicom::thumbnail(s, size));
-        }
-      },
-      [this, pictures, path](std::exception_ptr failure) {
-        if (path != session_.path()) {
-          drawThumbnails();  // another patient was opened meanwhile
-          return;
-        }
-        if (failure) return;  // the table says what is wrong with a series
-        for (int row = 0; row < std::min(table_->rowCount(), static_cast<int>(pictures->size())); ++row) {
-          const dicom::Thumbnail& t = (*pictures)[static_cast<std::size_t>(row)];
-          if (t.width == 0 || !table_->item(row, 1)) continue;
-          QImage image = QImage(t.grey.data(), t.width, t.height, t.width, QImage::Format_Grayscale8).copy();
-          image.setDevicePixelRatio(devicePixelRatioF());
-          table_->item(row, 1)->setIcon(QIcon(QPixmap::fromImage(image)));
-        }
-      });
 }
 
 }  // namespace glisson::panels

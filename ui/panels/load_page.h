@@ -2,13 +2,12 @@
 
 #include <QWidget>
 
-#include "session/worker.h"
+#include "session/offered_regions.h"
 
 class QFrame;
 class QLabel;
 class QPushButton;
 class QStackedWidget;
-class QTableWidget;
 class QTreeWidget;
 
 namespace glisson::session {
@@ -17,35 +16,38 @@ class Session;
 
 namespace glisson::panels {
 
+class RegionList;
+class SeriesTree;
+
 /// Load: what was found in the folder, what each series is for and why; the role can be corrected.
 class LoadPage : public QWidget {
   Q_OBJECT
  public:
   explicit LoadPage(session::Session& session, QWidget* parent = nullptr);
-  bool correcting() const { return correcting_; }  ///< a role was corrected here: the reader goes on when ready
+  bool correcting() const;  ///< a role was corrected here: the reader goes on when ready
 
  signals:
   void openWanted();
   void syntheticWanted();
-  void segmentWanted();                  ///< the roles are right: on to the outlines
-  void pathWanted(const QString& path);  ///< a recent one
-  void answerWanted();                   ///< to what the session wants to know about the elastogram
+  void filesWanted();                                                ///< volumes, an archive or a case
+  void regionWanted(const glisson::session::OfferedRegion& region);  ///< as outlines
+  void segmentWanted();                                              ///< the roles are right: on to the outlines
+  void pathWanted(const QString& path);                              ///< a recent one
+  void answerWanted();  ///< to what the session wants to know about the elastogram
 
  private:
   QWidget* makeWelcome();
   QWidget* makeTable();
   void fill();
-  void drawThumbnails();
   void showNotice();  ///< why nothing was opened, or why the elastogram is left out
   session::Session& session_;
   QStackedWidget* stack_;
-  QTableWidget* table_;
+  SeriesTree* tree_;
+  RegionList* regions_;
   QTreeWidget* skipped_;
-  QLabel *summary_, *noticeText_;
+  QLabel *summary_, *noticeText_, *regionsHead_ = nullptr;
   QFrame* notice_;
   QPushButton *answer_, *next_ = nullptr;
-  bool correcting_ = false;
-  session::Worker painter_;  ///< of thumbnails
 };
 
 }  // namespace glisson::panels

@@ -85,17 +85,33 @@ bool MainWindow::saveInto(QString folder) {
   return !session_.modified();
 }
 
-void MainWindow::openCase() {
-  const QString file =
-      QFileDialog::getOpenFileName(this, tr("Open case or archive"), session_.path(),
-                                   tr("Cases, archives, DICOMDIR (case.json *.zip DICOMDIR);;All files (*)"));
-  if (!file.isEmpty()) openPath(file);
+void MainWindow::openFiles() {
+  const QStringList files = QFileDialog::getOpenFileNames(
+      this, tr("Open case, volumes or archive"), session_.path(),
+      tr("Cases, volumes, archives, DICOMDIR (case.json *.nii *.nii.gz *.nrrd *.nhdr *.mha *.mhd *.zip DICOMDIR);;"
+         "All files (*)"));
+  openPaths(files);
 }
 
 void MainWindow::openPath(const QString& path) {
-  if (!mayDiscard()) return;
+  openPaths({path});
+}
+
+void MainWindow::openPaths(const QStringList& paths) {
+  if (paths.isEmpty() || !mayDiscard()) return;
   showStep(Step::Load);
-  session_.openPath(path);
+  session_.openPaths(paths);
+}
+
+void MainWindow::takeRegion(const session::OfferedRegion& region) {
+  if (!mayReplaceOutlines()) return;
+  attempt(tr("Import outlines"), [&] {
+    session_.importRegion(region, [this](const QString& doubt) {
+      return confirmed("otherFrameBox", tr("Import outlines"), doubt,
+                       tr("Import them all the same? The answer is kept in the case."), tr("Import"));
+    });
+    showStep(Step::Segment);
+  });
 }
 
 void MainWindow::loadSecondReader() {
@@ -113,6 +129,8 @@ void MainWindow::exportResults() {
 
 void MainWindow::remember(const QString& path) {
   if (path.isEmpty() || !session_.images().mri) return;  // what could not be opened is not offered again
+  // Some files of a folder: the folder alone would mean others as well.
+  if (session_.caseFolder().isEmpty() && !session_.images().choices.files.empty()) return;
   QSettings settings;
   QStringList all = settings.value(recentKey).toStringList();
   all.removeAll(path);
@@ -171,8 +189,10 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-  const QList<QUrl> urls = event->mimeData()->urls();
-  if (!urls.isEmpty() && urls.front().isLocalFile()) openPath(urls.front().toLocalFile());
+  QStringList paths;
+  for (const QUrl& url : event->mimeData()->urls())
+    if (url.isLocalFile()) paths << url.toLocalFile();
+  openPaths(paths);
 }
 
 }  // namespace glisson::panels

@@ -117,6 +117,8 @@ void MainWindow::connectSession() {
   connect(load_, &LoadPage::openWanted, this, &MainWindow::openFolder);
   connect(load_, &LoadPage::syntheticWanted, this, &MainWindow::openSynthetic);
   connect(load_, &LoadPage::pathWanted, this, &MainWindow::openPath);
+  connect(load_, &LoadPage::regionWanted, this, &MainWindow::takeRegion);
+  connect(load_, &LoadPage::filesWanted, this, &MainWindow::openFiles);
   connect(load_, &LoadPage::segmentWanted, this, [this] { showStep(Step::Segment); });
   connect(segment_, &SegmentPage::importWanted, this, &MainWindow::importOutlines);
   connect(segment_, &SegmentPage::helpWanted, this, &MainWindow::showKeys);
@@ -252,23 +254,24 @@ namespace {
 
 /// Libraries that are linked, with their licences (SPDX).
 QString libraries() {
-  constexpr std::array<std::array<const char*, 2>, 17> all = {{{"Qt 6", "LGPL-3.0"},
-                                                               {"VTK", "BSD-3-Clause"},
-                                                               {"ITK", "Apache-2.0"},
-                                                               {"DCMTK", "BSD-3-Clause"},
-                                                               {"Eigen", "MPL-2.0"},
-                                                               {"CGAL", "GPL-3.0-or-later"},
-                                                               {"SuiteSparse CHOLMOD", "GPL-2.0-or-later"},
-                                                               {"OpenBLAS", "BSD-3-Clause"},
-                                                               {"oneTBB", "Apache-2.0"},
-                                                               {"OpenIGTLink", "BSD-3-Clause"},
-                                                               {"OpenSSL", "Apache-2.0"},
-                                                               {"libarchive", "BSD-2-Clause"},
-                                                               {"cairo", "LGPL-2.1 or MPL-1.1"},
-                                                               {"FreeType", "FTL"},
-                                                               {"libpng, zlib, OpenJPEG", "libpng-2.0, Zlib, BSD-2-Clause"},
-                                                               {"nlohmann/json", "MIT"},
-                                                               {"CLI11", "BSD-3-Clause"}}};
+  constexpr std::array<std::array<const char*, 2>, 17> all = {
+      {{"Qt 6", "LGPL-3.0"},
+       {"VTK", "BSD-3-Clause"},
+       {"ITK", "Apache-2.0"},
+       {"DCMTK", "BSD-3-Clause"},
+       {"Eigen", "MPL-2.0"},
+       {"CGAL", "GPL-3.0-or-later"},
+       {"SuiteSparse CHOLMOD", "GPL-2.0-or-later"},
+       {"OpenBLAS", "BSD-3-Clause"},
+       {"oneTBB", "Apache-2.0"},
+       {"OpenIGTLink", "BSD-3-Clause"},
+       {"OpenSSL", "Apache-2.0"},
+       {"libarchive", "BSD-2-Clause"},
+       {"cairo", "LGPL-2.1 or MPL-1.1"},
+       {"FreeType", "FTL"},
+       {"libpng, zlib, OpenJPEG", "libpng-2.0, Zlib, BSD-2-Clause"},
+       {"nlohmann/json", "MIT"},
+       {"CLI11", "BSD-3-Clause"}}};
   QString text;
   for (const auto& [name, licence] : all)
     text += QStringLiteral("\n%1: %2").arg(QLatin1String(name), QLatin1String(licence));
@@ -285,10 +288,10 @@ void MainWindow::about() {
                  "elastography.</p><p>Numbers and reference ranges only, never a diagnosis.</p>"
                  "<p>Free software under the GNU General Public License, version 3 or later.</p>")
                   .arg(QString::fromStdString(version()), tr(researchUseOnly)));
-  box.setInformativeText(
-      tr("<p>By the Glisson maintainers. It reproduces, and goes on from: Barrow et al., <i>Patient Specific Biomechanics "
-         "Are Clinically Significant In Accurate Computer Aided Surgical Image Guidance</i>. Cite that paper, and Glisson "
-         "with its version.</p>"));
+  box.setInformativeText(tr(
+      "<p>By the Glisson maintainers. It reproduces, and goes on from: Barrow et al., <i>Patient Specific Biomechanics "
+      "Are Clinically Significant In Accurate Computer Aided Surgical Image Guidance</i>. Cite that paper, and Glisson "
+      "with its version.</p>"));
   box.setDetailedText(tr("Built with these libraries, under their own licences:") + libraries());
   box.exec();
 }

@@ -42,14 +42,17 @@ class MainWindow : public QMainWindow {
   void importFrom(const QString& file);  ///< asks first where outlines would be replaced
   void saveCase();                       ///< where it was saved before; else asks
   void saveCaseAs();
-  void openCase();
-  void openPath(const QString& path);  ///< a folder, DICOMDIR, ZIP or case
+  void openFiles();                                       ///< asks for a case, an archive or volumes
+  void openPath(const QString& path);                     ///< a folder, DICOMDIR, ZIP, volume or case
+  void openPaths(const QStringList& paths);               ///< several that belong together
+  void takeRegion(const session::OfferedRegion& region);  ///< asks first where outlines would be replaced
   void loadSecondReader();
   void exportResults();
   void askAboutImages();  ///< what the session wants to know about the elastogram
   void run();
   void about();
   void showKeys();
+  void showManual();
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -58,6 +61,7 @@ class MainWindow : public QMainWindow {
 
  private:
   void makeMenus();
+  void makeMouseMenu(QMenu& menu);
   void makeStatusLine();
   void connectSession();
   void refreshIcons();

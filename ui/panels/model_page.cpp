@@ -12,6 +12,7 @@
 #include "panels/form.h"
 #include "panels/model_stage.h"
 #include "pipeline/plan.h"
+#include "session/said.h"
 #include "session/session.h"
 
 namespace glisson::panels {
@@ -275,8 +276,9 @@ void ModelPage::showPlan() {
                                    : tr("%1%2 s")
                                          .arg(measured ? QString() : QStringLiteral("≈ "))
                                          .arg(s.seconds, 0, 'f', s.seconds < 1 ? 2 : 1);
-    auto* item = new QTreeWidgetItem(plan_, {QString::fromStdString(s.step), s.needed ? tr("yes") : tr("left out"),
-                                             time, QString::fromStdString(s.why)});
+    auto* item =
+        new QTreeWidgetItem(plan_, {session::stepInWords(QString::fromStdString(s.step)),
+                                    s.needed ? tr("yes") : tr("left out"), time, QString::fromStdString(s.why)});
     item->setToolTip(3, item->text(3));
     if (!s.needed)
       for (int c = 0; c < 4; ++c) item->setForeground(c, palette().color(QPalette::PlaceholderText));

@@ -4,6 +4,7 @@
 #include <QCheckBox>
 #include <QHeaderView>
 #include <QSettings>
+#include <QSlider>
 #include <QSpinBox>
 #include <QTreeWidget>
 #include <algorithm>
@@ -151,6 +152,23 @@ void OutlinePanel::makeReadout(QVBoxLayout* side) {
     (high < 10 ? scale8_ : scale20_) = scale;
   }
   side->addLayout(scales);
+  auto* laid = new QHBoxLayout;
+  auto* name = labelled(tr("Over the MRI"), "faint");
+  name->setWordWrap(false);
+  fusion_ = new QSlider(Qt::Horizontal);
+  fusion_->setObjectName(QStringLiteral("fusionSlider"));
+  fusion_->setAccessibleName(tr("Stiffness over the MRI"));
+  fusion_->setRange(0, 100);
+  fusion_->setToolTip(keys_.tip(Command::Fuse));
+  laid->addWidget(name);
+  laid->addWidget(fusion_, 1);
+  side->addLayout(laid);
+  connect(fusion_, &QSlider::valueChanged, this, [this](int percent) { emit fusionWanted(percent / 100.0); });
+}
+
+void OutlinePanel::setFusion(double opacity) {
+  const QSignalBlocker quiet(fusion_);
+  fusion_->setValue(qRound(100.0 * opacity));
 }
 
 void OutlinePanel::makeList(QVBoxLayout* side) {
@@ -165,6 +183,12 @@ void OutlinePanel::makeList(QVBoxLayout* side) {
   side->addWidget(outlines_, 1);
   connect(outlines_, &QTreeWidget::itemClicked, this,
           [this](QTreeWidgetItem* item) { emit sliceWanted(item->data(0, Qt::UserRole).toInt()); });
+  volume_ = labelled({}, "text");
+  volume_->setObjectName(QStringLiteral("liverVolume"));
+  volume_->setToolTip(
+      tr("What counts: outlines that were accepted or interpolated, without what is left out, empty "
+         "slices between them filled by shape"));
+  side->addWidget(volume_);
   coverage_ = labelled({}, "faint");
   coverage_->setObjectName(QStringLiteral("outlineCoverage"));
   side->addWidget(coverage_);
@@ -211,6 +235,8 @@ QString OutlinePanel::numbersInFull(const session::LiveStatistics& live) {
 void OutlinePanel::showStatistics() {
   const session::LiveStatistics& live = session_.statistics();
   full_->setText(numbersInFull(live));
+  volume_->setText(live.region ? tr("Volume %1 mL").arg(live.volume_mL, 0, 'f', live.volume_mL < 100.0 ? 1 : 0)
+                               : QString());
   pooled_->setToolTip(full_->text());
   if (!live.pooled) {
     readout_->setText(QStringLiteral("–"));

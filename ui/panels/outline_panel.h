@@ -8,6 +8,7 @@
 class QCheckBox;
 class QLabel;
 class QPushButton;
+class QSlider;
 class QSpinBox;
 class QTreeWidget;
 class QVBoxLayout;
@@ -29,6 +30,7 @@ class OutlinePanel : public SidePanel {
   void setSlice(int slice);  ///< of the MRI; −1: no image
   void setCursorText(const QString& text);
   void setScale(double high_kPa);
+  void setFusion(double opacity);  ///< of the map over the MRI, 0 ... 1
   /// Median, range and, over all slices, the mean weighted by area; empty where nothing is measured.
   static QString numbersInFull(const session::LiveStatistics& live);
 
@@ -37,6 +39,7 @@ class OutlinePanel : public SidePanel {
   void sliceWanted(int slice);
   void importWanted();
   void scaleWanted(double high_kPa);
+  void fusionWanted(double opacity);
 
  private:
   void makeTools(QVBoxLayout* side);
@@ -50,7 +53,8 @@ class OutlinePanel : public SidePanel {
   session::Session& session_;
   const Keys& keys_;
   int slice_ = -1;
-  QLabel *stateText_, *readout_, *pooled_, *full_, *cursor_, *coverage_;
+  QLabel *stateText_, *readout_, *pooled_, *full_, *cursor_, *coverage_, *volume_;
+  QSlider* fusion_;
   QCheckBox* inner_;
   QSpinBox* erosion_;
   QTreeWidget* outlines_;

@@ -33,10 +33,8 @@ QString proposedBy(tools::BarProof proof) {
   switch (proof) {
     case tools::BarProof::ByTheRun:
       return PlacementEditor::tr(" (proposed from the liver's shape; the run proves that it bears)");
-    case tools::BarProof::Proved:
-      return PlacementEditor::tr(" (where the run has laid it)");
-    case tools::BarProof::None:
-      break;
+    case tools::BarProof::Proved: return PlacementEditor::tr(" (where the run has laid it)");
+    case tools::BarProof::None: break;
   }
   return PlacementEditor::tr(" (as proposed)");
 }

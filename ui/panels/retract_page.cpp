@@ -12,6 +12,7 @@
 #include "panels/palette_choice.h"
 #include "panels/placement_editor.h"
 #include "panels/retractor_form.h"
+#include "session/said.h"
 #include "session/session.h"
 #include "views/scene_view.h"
 #include "views/slice_view.h"
@@ -219,7 +220,7 @@ void RetractPage::showResult() {
                         .arg(100.0 * r.max_strain, 0, 'f', 1)
                         .arg(r.max_rotation_deg, 0, 'f', 1));
   QStringList words;
-  for (const std::string& w : r.validity) words << sentence(w);
+  for (const QString& w : session::said(r.validity, r.doubts)) words << sentence(w);
   if (words.isEmpty())
     words << (r.kinematics == retraction::Kinematics::Linear ? tr("Linear theory can be trusted here.")
                                                              : tr("The large deformation converged."));

@@ -20,8 +20,7 @@ QString why(retraction::RigidRefusal refusal) {
       return RetractorForm::tr("A rigid bar is offered at rest only: leave out the time steps on the Model page.");
     case retraction::RigidRefusal::Condensed:
       return RetractorForm::tr("A condensed response has no rigid bar: choose another solver on the Model page.");
-    case retraction::RigidRefusal::Corotational:
-      break;
+    case retraction::RigidRefusal::Corotational: break;
   }
   return RetractorForm::tr(
       "A rigid bar is offered for automatic, hyperelastic or linear deformation: choose one on the Model page.");
@@ -142,7 +141,9 @@ void RetractorForm::showWhatApplies() {
   const session::Parameters p = session::offered(session_.parameters());
   const auto refusal = session::rigidRefusal(session_.parameters());
   const bool rigid = p.contact == retraction::ContactKind::Rigid;
-  const QString ofRigid = rigid ? QString() : refusal ? why(*refusal) : tr("A spread patch has none: choose the rigid bar.");
+  const QString ofRigid = rigid     ? QString()
+                          : refusal ? why(*refusal)
+                                    : tr("A spread patch has none: choose the rigid bar.");
   apply(contact_,
         tr("Rigid bar: a body of its own that pushes and does not pull, without friction, in large deformation. Spread "
            "patch: a pressure on the liver at rest, as in the published study."),
@@ -157,13 +158,15 @@ void RetractorForm::showWhatApplies() {
   apply(force_, tr("Hoisting force, towards anterior in the transverse plane"),
         p.drive == session::Drive::Force ? QString() : tr("Choose \"Given force\" to set it."));
   apply(travel_, tr("Way of the bar from its first touch, along the hoist"),
-        !ofRigid.isEmpty()                     ? ofRigid
+        !ofRigid.isEmpty()                  ? ofRigid
         : p.drive == session::Drive::Travel ? QString()
-                                               : tr("Choose \"Given travel\" to set it."));
+                                            : tr("Choose \"Given travel\" to set it."));
   const QString ofCapsule = tr("Stiff skin of the liver, which carries tension along its surface");
   apply(capsule_, ofCapsule, ofRigid);
   apply(tension_, tr("Young's modulus of the capsule times its thickness"),
-        !ofRigid.isEmpty() ? ofRigid : p.capsule ? QString() : tr("The capsule is left out."));
+        !ofRigid.isEmpty() ? ofRigid
+        : p.capsule        ? QString()
+                           : tr("The capsule is left out."));
 }
 
 }  // namespace glisson::panels

@@ -6,6 +6,7 @@
 #include "panels/image_layers.h"
 #include "panels/keys.h"
 #include "panels/outline_panel.h"
+#include "panels/plane_views.h"
 #include "panels/segment_page.h"
 #include "session/session.h"
 #include "views/slice_view.h"
@@ -21,8 +22,7 @@ void SegmentPage::keyDown(QKeyEvent* event) {
   if (!command) return;
   event->accept();
   if (*command == Command::HideOverlays) {
-    mri_->setOverlaysHidden(true);
-    mre_->setOverlaysHidden(true);
+    for (views::SliceView* view : {mri_, mre_, planes_->both()[0], planes_->both()[1]}) view->setOverlaysHidden(true);
   } else {
     run(*command);
   }
@@ -30,8 +30,7 @@ void SegmentPage::keyDown(QKeyEvent* event) {
 
 void SegmentPage::keyUp(QKeyEvent* event) {
   if (keys_.commandFor(*event) != Command::HideOverlays) return;
-  mri_->setOverlaysHidden(false);
-  mre_->setOverlaysHidden(false);
+  for (views::SliceView* view : {mri_, mre_, planes_->both()[0], planes_->both()[1]}) view->setOverlaysHidden(false);
 }
 
 void SegmentPage::run(Command command) {
@@ -49,110 +48,53 @@ bool SegmentPage::runOutline(Command command) {
   tools::PolygonTool& tool = session_.tool();
   const auto key = [&](ToolKey k) { session_.apply(tool.key(k, mri_->plane())); };
   switch (command) {
-    case Command::Polygon:
-      take(Hand::Outline, ToolMode::Polygon);
-      return true;
-    case Command::Freehand:
-      take(Hand::Outline, ToolMode::Freehand);
-      return true;
-    case Command::Sculpt:
-      take(Hand::Outline, ToolMode::Sculpt);
-      return true;
-    case Command::CloseOrAccept:
-      key(ToolKey::Enter);
-      return true;
-    case Command::CloseAndAccept:
-      key(ToolKey::CtrlEnter);
-      return true;
-    case Command::LastVertex:
-      hand_ == Hand::Measure ? measure_.removeLast() : key(ToolKey::Backspace);
-      return true;
-    case Command::Delete:
-      hand_ == Hand::Measure ? measure_.removeLast() : key(ToolKey::Delete);
-      return true;
-    case Command::Park:
-      hand_ == Hand::Measure ? measure_.cancel() : key(ToolKey::Escape);
-      return true;
-    case Command::Split:
-      session_.apply(tool.split(mri_->plane()));
-      return true;
-    case Command::Trim:
-      session_.apply(tool.trim(mri_->plane()));
-      return true;
-    case Command::Undo:
-      session_.undo();
-      return true;
-    case Command::Redo:
-      session_.redo();
-      return true;
-    case Command::SelectAll:
-      tool.selectAll(mri_->plane());
-      return true;
-    case Command::Deselect:
-      tool.deselect();
-      return true;
-    case Command::Copy:
-      session_.copyOutlines();
-      return true;
-    case Command::Paste:
-      session_.pasteOutlines();
-      return true;
-    case Command::PasteBetween:
-      session_.pasteBetween();
-      return true;
+    case Command::Polygon: take(Hand::Outline, ToolMode::Polygon); return true;
+    case Command::Freehand: take(Hand::Outline, ToolMode::Freehand); return true;
+    case Command::Sculpt: take(Hand::Outline, ToolMode::Sculpt); return true;
+    case Command::CloseOrAccept: key(ToolKey::Enter); return true;
+    case Command::CloseAndAccept: key(ToolKey::CtrlEnter); return true;
+    case Command::LastVertex: hand_ == Hand::Measure ? measure_.removeLast() : key(ToolKey::Backspace); return true;
+    case Command::Delete: hand_ == Hand::Measure ? measure_.removeLast() : key(ToolKey::Delete); return true;
+    case Command::Park: hand_ == Hand::Measure ? measure_.cancel() : key(ToolKey::Escape); return true;
+    case Command::Split: session_.apply(tool.split(mri_->plane())); return true;
+    case Command::Trim: session_.apply(tool.trim(mri_->plane())); return true;
+    case Command::Undo: session_.undo(); return true;
+    case Command::Redo: session_.redo(); return true;
+    case Command::SelectAll: tool.selectAll(mri_->plane()); return true;
+    case Command::Deselect: tool.deselect(); return true;
+    case Command::Copy: session_.copyOutlines(); return true;
+    case Command::Paste: session_.pasteOutlines(); return true;
+    case Command::PasteBetween: session_.pasteBetween(); return true;
     case Command::Include:
-    case Command::Exclude:
-      session_.apply(tool.setKind(command == Command::Exclude));
-      return true;
-    case Command::Interpolate:
-      session_.interpolateOutlines();
-      return true;
-    case Command::AcceptAll:
-      session_.acceptInterpolated();
-      return true;
-    case Command::Propose:
-      session_.propose(cursor_.value_or(mri_->centre_lps()));
-      return true;
+    case Command::Exclude: session_.apply(tool.setKind(command == Command::Exclude)); return true;
+    case Command::Interpolate: session_.interpolateOutlines(); return true;
+    case Command::AcceptAll: session_.acceptInterpolated(); return true;
+    case Command::Propose: session_.propose(cursor_.value_or(mri_->centre_lps())); return true;
     case Command::CompareReaders:
       session_.secondReader().polygons.empty() ? emit secondReaderWanted() : session_.compareReaders();
       return true;
-    default:
-      return false;
+    default: return false;
   }
 }
 
 bool SegmentPage::runView(Command command) {
   switch (command) {
-    case Command::Measure:
-      take(Hand::Measure, session_.tool().mode());
-      return true;
-    case Command::WindowLevel:
-      take(Hand::Window, session_.tool().mode());
-      return true;
+    case Command::Measure: take(Hand::Measure, session_.tool().mode()); return true;
+    case Command::WindowLevel: take(Hand::Window, session_.tool().mode()); return true;
     case Command::NudgeLeft:
-    case Command::NudgeRight:
-      nudge({command == Command::NudgeLeft ? -0.1 : 0.1, 0.0}, 0);
-      return true;
+    case Command::NudgeRight: nudge({command == Command::NudgeLeft ? -0.1 : 0.1, 0.0}, 0); return true;
     case Command::NudgeUp:
     case Command::NudgeDown:
       nudge({0.0, command == Command::NudgeUp ? -0.1 : 0.1}, command == Command::NudgeUp ? 1 : -1);
       return true;
     case Command::NudgeLeftFar:
-    case Command::NudgeRightFar:
-      nudge({command == Command::NudgeLeftFar ? -1.0 : 1.0, 0.0}, 0);
-      return true;
+    case Command::NudgeRightFar: nudge({command == Command::NudgeLeftFar ? -1.0 : 1.0, 0.0}, 0); return true;
     case Command::NudgeUpFar:
-    case Command::NudgeDownFar:
-      nudge({0.0, command == Command::NudgeUpFar ? -1.0 : 1.0}, 0);
-      return true;
+    case Command::NudgeDownFar: nudge({0.0, command == Command::NudgeUpFar ? -1.0 : 1.0}, 0); return true;
     case Command::CrosshairLeft:
-    case Command::CrosshairRight:
-      moveCrosshair({command == Command::CrosshairLeft ? -1.0 : 1.0, 0.0});
-      return true;
+    case Command::CrosshairRight: moveCrosshair({command == Command::CrosshairLeft ? -1.0 : 1.0, 0.0}); return true;
     case Command::CrosshairUp:
-    case Command::CrosshairDown:
-      moveCrosshair({0.0, command == Command::CrosshairUp ? -1.0 : 1.0});
-      return true;
+    case Command::CrosshairDown: moveCrosshair({0.0, command == Command::CrosshairUp ? -1.0 : 1.0}); return true;
     case Command::CrosshairLeftFar:
     case Command::CrosshairRightFar:
       moveCrosshair({command == Command::CrosshairLeftFar ? -10.0 : 10.0, 0.0});
@@ -161,19 +103,11 @@ bool SegmentPage::runView(Command command) {
     case Command::CrosshairDownFar:
       moveCrosshair({0.0, command == Command::CrosshairUpFar ? -10.0 : 10.0});
       return true;
-    case Command::ClickHere:
-      clickAtCrosshair();
-      return true;
-    case Command::FirstSlice:
-      mri_->setSlice(0);
-      return true;
-    case Command::LastSlice:
-      mri_->setSlice(mri_->sliceCount() - 1);
-      return true;
+    case Command::ClickHere: clickAtCrosshair(); return true;
+    case Command::FirstSlice: mri_->setSlice(0); return true;
+    case Command::LastSlice: mri_->setSlice(mri_->sliceCount() - 1); return true;
     case Command::SliceUp:
-    case Command::SliceDown:
-      mri_->setSlice(mri_->slice() + (command == Command::SliceUp ? 1 : -1));
-      return true;
+    case Command::SliceDown: mri_->setSlice(mri_->slice() + (command == Command::SliceUp ? 1 : -1)); return true;
     case Command::NextPending:
       if (const auto next = session_.nextPending(mri_->slice()))
         mri_->setSlice(*next);
@@ -184,23 +118,15 @@ bool SegmentPage::runView(Command command) {
     case Command::MarkNoWave:
       session_.toggleMark(command == Command::MarkNoLiver ? commands::SliceMark::NoLiver : commands::SliceMark::NoWave);
       return true;
-    case Command::InnerRoi:
-      inner(0);
-      return true;
+    case Command::InnerRoi: inner(0); return true;
     case Command::InnerLess:
-    case Command::InnerMore:
-      inner(command == Command::InnerMore ? 1 : -1);
-      return true;
-    case Command::AutoWindow:
-      preset(0);
-      return true;
+    case Command::InnerMore: inner(command == Command::InnerMore ? 1 : -1); return true;
+    case Command::AutoWindow: preset(0); return true;
     case Command::Preset1:
     case Command::Preset2:
     case Command::Preset3:
     case Command::Preset4:
-    case Command::Preset5:
-      preset(1 + static_cast<int>(command) - static_cast<int>(Command::Preset1));
-      return true;
+    case Command::Preset5: preset(1 + static_cast<int>(command) - static_cast<int>(Command::Preset1)); return true;
     case Command::LinkViews:
       linked_ = !linked_;
       linkPlace(mri_, mre_);
@@ -210,13 +136,14 @@ bool SegmentPage::runView(Command command) {
       const double high = layers_->stiffnessScale() < 10.0 ? 20.0 : 8.0;
       layers_->setStiffnessScale(high);
       panel_->setScale(high);
+      showFusion();
       return true;
     }
-    case Command::PlayWave:
-      layers_->togglePlay();
-      return true;
-    default:
-      return false;
+    case Command::PlayWave: layers_->togglePlay(); return true;
+    case Command::Planes: showPlanes(!alone_ && planes_->isHidden()); return true;
+    case Command::FillWindow: fillWith(alone_ ? nullptr : viewUnderMouse()); return true;
+    case Command::Fuse: setFusion(fusion_ > 0.0 ? 0.0 : lastFusion_); return true;
+    default: return false;
   }
 }
 
@@ -224,7 +151,8 @@ void SegmentPage::take(Hand hand, ToolMode mode) {
   hand_ = hand;
   measure_.cancel();
   mri_->setLeftDragWindows(hand == Hand::Window);
-  mre_->setLeftDragWindows(hand == Hand::Window);
+  for (views::SliceView* view : {mre_, planes_->both()[0], planes_->both()[1]})
+    view->setLeftDragWindows(hand == Hand::Window);
   // Another tool parks an unfinished outline.
   session_.apply(hand == Hand::Outline ? session_.tool().setMode(mode, mri_->plane())
                                        : session_.tool().leaveSlice(mri_->plane()));
@@ -253,6 +181,7 @@ void SegmentPage::moveCrosshair(const Eigen::Vector2d& pixels) {
   index.head<2>() = index.head<2>().cwiseMax(0.0).cwiseMin(last);
   index.z() = plane.slice;
   const Eigen::Vector3d p_lps = plane.grid.indexToLps(index);
+  setCrosshair(p_lps);
   showCursor(p_lps);
   mri_->setCursorByKeys();
   const Eigen::Vector2d px = plane.toPixel(p_lps);
@@ -299,6 +228,7 @@ void SegmentPage::preset(int number) {
   const auto whole = windowOf(*mri_->volume().values);
   const auto [low, high] = number == 0 ? whole : presetOf(number - 1, whole);
   mri_->setWindow(low, high);
+  planes_->setWindow(low, high);
 }
 
 }  // namespace glisson::panels

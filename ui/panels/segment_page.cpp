@@ -6,7 +6,6 @@
 #include <QKeyEvent>
 #include <QSettings>
 #include <QSpinBox>
-#include <QSplitter>
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +14,7 @@
 #include "panels/image_layers.h"
 #include "panels/keys.h"
 #include "panels/outline_panel.h"
+#include "panels/plane_views.h"
 #include "session/session.h"
 #include "views/slice_view.h"
 
@@ -30,51 +30,27 @@ SegmentPage::SegmentPage(session::Session& session, Keys& keys, QWidget* parent)
       mri_(new SliceView),
       mre_(new SliceView),
       layers_(new ImageLayers(mre_)),
-      panel_(new OutlinePanel(session, keys)) {
+      panel_(new OutlinePanel(session, keys)),
+      planes_(new PlaneViews) {
   mri_->setObjectName(QStringLiteral("mriView"));
   mre_->setObjectName(QStringLiteral("mreView"));
   mri_->setHint(tr("Open images first (step Load)."));
   mre_->setHint(tr("No elastogram is open."));
   mri_->setAccessibleName(tr("MRI slice"));
   mre_->setAccessibleName(tr("Elastography slice"));
-  const auto column = [](QWidget* above, SliceView* view) {
-    auto* both = new QWidget;
-    auto* layout = new QVBoxLayout(both);
-    layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(0);
-    layout->addWidget(above);
-    layout->addWidget(view, 1);
-    return both;
-  };
-  auto* strip = new QWidget;
-  auto* row = new QHBoxLayout(strip);
-  row->setContentsMargins(6, 4, 6, 4);
-  row->setSpacing(2);
-  makeStrip(row);
-  strip->setFixedHeight(42);
-  layers_->setFixedHeight(42);
-  auto* splitter = new QSplitter;
-  splitter->addWidget(column(strip, mri_));
-  splitter->addWidget(column(layers_, mre_));
-  splitter->setChildrenCollapsible(false);
-  splitter->setHandleWidth(3);
-  splitter->setSizes({1000, 1000});
-  auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
-  layout->addWidget(splitter, 1);
-  layout->addWidget(panel_);
+  makeViews();
   mri_->setContours(&session_.contours(), &session_.tool());
   mre_->setContours(&session_.contours(), nullptr);
   mri_->setMeasurements(&measure_);
   mre_->setMeasurements(&measure_);
-  for (SliceView* view : {mri_, mre_}) {
-    view->setSecondReader(&session_.secondReader());
+  for (SliceView* view : {mri_, mre_}) view->setSecondReader(&session_.secondReader());
+  for (SliceView* view : {mri_, mre_, planes_->both()[0], planes_->both()[1]}) {
     connect(view, &SliceView::keyDown, this, &SegmentPage::keyDown);
     connect(view, &SliceView::keyUp, this, &SegmentPage::keyUp);
   }
   connectTool();
   connectCursor();
+  connectPlanes();
   connect(panel_, &OutlinePanel::commandWanted, this, &SegmentPage::run);
   connect(panel_, &OutlinePanel::sliceWanted, mri_, &SliceView::setSlice);
   connect(panel_, &OutlinePanel::importWanted, this, &SegmentPage::importWanted);
@@ -132,6 +108,7 @@ void SegmentPage::makeStrip(QHBoxLayout* strip) {
   connect(presets, &QComboBox::activated, this, &SegmentPage::preset);
   link_ = tool("linkViews", "link", Command::LinkViews);
   link_->setChecked(true);
+  planesButton_ = tool("planesButton", "planes", Command::Planes);
   auto* propose = tool("proposeOutline", "propose", Command::Propose);
   propose->setCheckable(false);
   auto* help = tool("helpButton", "help", Command::Help);
@@ -180,6 +157,7 @@ void SegmentPage::connectCursor() {
       following_ = false;
     }
     session_.setShownPlane(mri_->plane());
+    keepCrosshairOnSlice();
     showSlice();
   });
   connect(mre_, &SliceView::sliceChanged, this, [this, middleOf] {
@@ -204,8 +182,9 @@ void SegmentPage::connectCursor() {
 
 void SegmentPage::showCursor(const std::optional<Eigen::Vector3d>& p_lps) {
   cursor_ = p_lps;
-  mri_->setCursor(p_lps);
-  mre_->setCursor(p_lps);
+  // With all planes open the crosshair stays where the mouse has left.
+  for (SliceView* view : {mri_, mre_}) view->setCursor(p_lps || planes_->isHidden() ? p_lps : crosshair_);
+  planes_->setCursor(p_lps);
   QString text;
   if (p_lps && session_.images().stiffness) {
     const image::ScalarVolume& map = session_.images().stiffness->values_kPa;
@@ -229,6 +208,8 @@ void SegmentPage::showImages() {
   if (!images.mri) {
     mri_->clear();
     mre_->clear();
+    planes_->setImage(nullptr, 0.0, 1.0);
+    crosshair_.reset();
     panel_->setSlice(-1);
     return;
   }
@@ -240,7 +221,10 @@ void SegmentPage::showImages() {
   const bool other = !mri_->hasVolume() || !mri_->volume().values->grid.sameGeometry(images.mri->grid);
   mri_->setVolume(mri);
   layers_->setImages(images);
+  planes_->setImage(images.mri, mri.low, mri.high);
+  showFusion();
   if (other) showFirstSlice();
+  setCrosshair(mri_->centre_lps());
   linkPlace(mri_, mre_);
   session_.setShownPlane(mri_->plane());
   showSlice();

@@ -12,6 +12,7 @@ class QHBoxLayout;
 class QKeyEvent;
 class QPushButton;
 class QSpinBox;
+class QSplitter;
 
 namespace glisson::session {
 class Session;
@@ -25,6 +26,7 @@ namespace glisson::panels {
 class ImageLayers;
 class Keys;
 class OutlinePanel;
+class PlaneViews;
 
 /// Segment: MRI and elastogram side by side with one cursor; outlines are drawn on the MRI and measured on both at
 /// once.
@@ -35,6 +37,13 @@ class SegmentPage : public QWidget {
   views::SliceView* mriView() const { return mri_; }
   views::SliceView* mreView() const { return mre_; }
   ImageLayers* layers() const { return layers_; }
+  PlaneViews* planes() const { return planes_; }
+  /// The map over the MRI in all planes, 0 ... 1; 0: not seen.
+  void setFusion(double opacity);
+  /// One view alone, or all of them again (null).
+  void fillWith(views::SliceView* view);
+  /// All views show this point; kept while the mouse is elsewhere.
+  void setCrosshair(const Eigen::Vector3d& p_lps);
   const tools::MeasureTool& measurements() const { return measure_; }
   bool linked() const { return linked_; }
   /// Does what a key would do.
@@ -59,6 +68,13 @@ class SegmentPage : public QWidget {
   void linkPlace(views::SliceView* from, views::SliceView* to);
   void showCursor(const std::optional<Eigen::Vector3d>& p_lps);
   void showFirstSlice();
+  // segment_planes.cpp
+  void makeViews();
+  void connectPlanes();
+  void showPlanes(bool on);
+  void showFusion();
+  void keepCrosshairOnSlice();
+  views::SliceView* viewUnderMouse() const;
   // segment_commands.cpp
   void keyDown(QKeyEvent* event);
   void keyUp(QKeyEvent* event);
@@ -81,7 +97,13 @@ class SegmentPage : public QWidget {
   views::SliceView *mri_, *mre_;
   ImageLayers* layers_;
   OutlinePanel* panel_;
-  QPushButton *polygon_, *freehand_, *sculpt_, *ruler_, *window_, *link_;
+  PlaneViews* planes_;
+  QWidget *mriColumn_ = nullptr, *mreColumn_ = nullptr;
+  QSplitter *upper_ = nullptr, *all_ = nullptr;
+  views::SliceView* alone_ = nullptr;  ///< the view that has the window; null: all
+  double fusion_ = 0.0, lastFusion_ = 0.5;
+  std::optional<Eigen::Vector3d> crosshair_;
+  QPushButton *polygon_, *freehand_, *sculpt_, *ruler_, *window_, *link_, *planesButton_ = nullptr;
   QSpinBox* spacing_;  ///< of freehand points
   tools::MeasureTool measure_;
   Hand hand_ = Hand::Outline;

@@ -16,34 +16,23 @@ namespace {
 
 QString iconOf(Step step) {
   switch (step) {
-    case Step::Load:
-      return QStringLiteral("load");
-    case Step::Segment:
-      return QStringLiteral("segment");
-    case Step::Model:
-      return QStringLiteral("model");
-    case Step::Retract:
-      return QStringLiteral("retract");
-    case Step::Compare:
-      return QStringLiteral("compare");
+    case Step::Load: return QStringLiteral("load");
+    case Step::Segment: return QStringLiteral("segment");
+    case Step::Model: return QStringLiteral("model");
+    case Step::Retract: return QStringLiteral("retract");
+    case Step::Compare: return QStringLiteral("compare");
   }
   return {};
 }
 
 QColor colourOf(StepState state, const QColor& faint) {
   switch (state) {
-    case StepState::Done:
-      return good();
-    case StepState::Running:
-      return accent();
-    case StepState::Stale:
-      return caution();
-    case StepState::Failed:
-      return bad();
-    case StepState::Ready:
-      return accent();
-    case StepState::Empty:
-      return faint;
+    case StepState::Done: return good();
+    case StepState::Running: return accent();
+    case StepState::Stale: return caution();
+    case StepState::Failed: return bad();
+    case StepState::Ready: return accent();
+    case StepState::Empty: return faint;
   }
   return faint;
 }
@@ -55,16 +44,12 @@ void drawMark(QPainter& p, const QRectF& r, StepState state, const QColor& colou
   const QPointF c = r.center();
   const double h = r.width() / 2.0;
   switch (state) {
-    case StepState::Empty:
-      p.drawEllipse(c, h * 0.55, h * 0.55);
-      break;
+    case StepState::Empty: p.drawEllipse(c, h * 0.55, h * 0.55); break;
     case StepState::Ready:
       p.setBrush(colour);
       p.drawEllipse(c, h * 0.55, h * 0.55);
       break;
-    case StepState::Running:
-      p.drawArc(r, 90 * 16, -250 * 16);
-      break;
+    case StepState::Running: p.drawArc(r, 90 * 16, -250 * 16); break;
     case StepState::Done:
       p.drawPolyline(QPolygonF({c + QPointF(-h, 0), c + QPointF(-h * 0.25, h * 0.75), c + QPointF(h, -h * 0.8)}));
       break;
@@ -87,34 +72,23 @@ void drawMark(QPainter& p, const QRectF& r, StepState state, const QColor& colou
 
 QString nameOf(Step step) {
   switch (step) {
-    case Step::Load:
-      return StepRail::tr("Load");
-    case Step::Segment:
-      return StepRail::tr("Segment");
-    case Step::Model:
-      return StepRail::tr("Model");
-    case Step::Retract:
-      return StepRail::tr("Retract");
-    case Step::Compare:
-      return StepRail::tr("Compare");
+    case Step::Load: return StepRail::tr("Load");
+    case Step::Segment: return StepRail::tr("Segment");
+    case Step::Model: return StepRail::tr("Model");
+    case Step::Retract: return StepRail::tr("Retract");
+    case Step::Compare: return StepRail::tr("Compare");
   }
   return {};
 }
 
 QString wordOf(StepState state) {
   switch (state) {
-    case StepState::Empty:
-      return StepRail::tr("empty");
-    case StepState::Ready:
-      return StepRail::tr("ready");
-    case StepState::Running:
-      return StepRail::tr("running");
-    case StepState::Done:
-      return StepRail::tr("done");
-    case StepState::Stale:
-      return StepRail::tr("stale");
-    case StepState::Failed:
-      return StepRail::tr("failed");
+    case StepState::Empty: return StepRail::tr("empty");
+    case StepState::Ready: return StepRail::tr("ready");
+    case StepState::Running: return StepRail::tr("running");
+    case StepState::Done: return StepRail::tr("done");
+    case StepState::Stale: return StepRail::tr("stale");
+    case StepState::Failed: return StepRail::tr("failed");
   }
   return {};
 }

@@ -23,6 +23,7 @@ int writeCaseRecord(const CaseRecord& record, const std::filesystem::path& folde
             {"measure", toJson(record.measure)},
             {"parameters", toJson(record.parameters)}};
   putChoices(record.choices, j["patient"]);
+  if (record.lastRunStale) j["last_run"] = {{"stale", *record.lastRunStale}};
   return pipeline::writeCase(
       {j.dump(-1, ' ', false, Json::error_handler_t::replace), roi::toJson(record.outlines), record.sceneJson}, folder);
 }
@@ -39,6 +40,7 @@ CaseRecord readCaseRecord(const std::filesystem::path& file) {
     record.outlines.marks = marksFromJson(j.at("slices"));
     record.seriesUid = j.at("patient").value("series_uid", std::string());
     record.choices = choicesFromJson(j.at("patient"));
+    if (j.contains("last_run")) record.lastRunStale = j["last_run"].at("stale").get<bool>();
     record.parameters = parametersFromJson(j.at("parameters"));
     record.measure = measureFromJson(j.at("measure"));
   } catch (const nlohmann::json::exception&) {

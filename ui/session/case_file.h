@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "commands/outlines.h"
@@ -14,8 +15,9 @@ struct CaseRecord : Settings {
   std::filesystem::path source;  ///< the DICOM folder, file or archive; written relative and absolute
   std::string seriesUid;         ///< of the image drawn on
   commands::Outlines outlines;
-  std::string sceneJson;  ///< text of scene.json
-  int version = 0;        ///< grows by one with each saving; set by readCaseRecord
+  std::string sceneJson;             ///< text of scene.json
+  std::optional<bool> lastRunStale;  ///< a run is kept beside it (kept_results.h): has anything changed since?
+  int version = 0;                   ///< grows by one with each saving; set by readCaseRecord
 };
 
 /// Writes the case as pipeline::writeCase does, which see. Returns the new version.

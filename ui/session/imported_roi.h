@@ -4,6 +4,7 @@
 
 #include "dicom/series.h"
 #include "pipeline/sources.h"
+#include "session/said.h"
 #include "session/session.h"
 
 namespace glisson::session {
@@ -34,7 +35,7 @@ inline Belonging belongs(const pipeline::LoadedRoi& roi, const dicom::Series& mr
       b.doubt = Session::tr(
           "These outlines have another frame of reference than the MRI: they may lie elsewhere in the patient.");
   }
-  for (const std::string& one : roi.warnings) b.notes += (b.notes.isEmpty() ? "" : "; ") + QString::fromStdString(one);
+  b.notes = said(roi.warnings, roi.diagnostics).join(QStringLiteral("; "));
   return b;
 }
 

@@ -27,7 +27,7 @@ class LiveHand : public QObject {
   bool atRest() const { return shown_ && shown_->atRest && shownFor_ == wanted_; }
 
  signals:
-  void moved();   ///< there is a new frame; the latest one where the window was busy
+  void moved();  ///< there is a new frame; the latest one where the window was busy
   void failed(const QString& why);
 
  private:
@@ -37,7 +37,7 @@ class LiveHand : public QObject {
   std::unique_ptr<LivePair> pair_;
   std::shared_ptr<const LiveFrame> shown_;
   std::uint64_t wanted_ = 0, shownFor_ = 0;  ///< numbers of what was asked for
-  std::mutex mutex_;  // guards the seven below
+  std::mutex mutex_;                         // guards the seven below
   std::condition_variable_any asked_;
   retraction::LiveTarget hand_;
   LiveComparison comparison_ = LiveComparison::EqualForce;

@@ -74,8 +74,8 @@ void LivePair::follow(const retraction::LiveTarget& hand, LiveComparison compari
     other.force_N = last_.force_N;
   }
   const retraction::LiveAnswers now = retraction::followBoth(livers_, hand, other);
-  const bool sameForce = comparison == LiveComparison::EqualTravel || (now.mre.force_N - last_.force_N).norm() <=
-                                                                          1e-3 * now.mre.force_N.norm();
+  const bool sameForce = comparison == LiveComparison::EqualTravel ||
+                         (now.mre.force_N - last_.force_N).norm() <= 1e-3 * now.mre.force_N.norm();
   last_ = now.mre;
   livers_.mre->displacements(frame.mre_mm);
   livers_.atlas->displacements(frame.atlas_mm);

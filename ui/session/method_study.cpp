@@ -14,26 +14,16 @@ constexpr double budget_s = 60.0;
 /// How a row of the study calls the method; empty where the study does not try it.
 std::string studied(Method method) {
   switch (method) {
-    case Method::HexIncompatible:
-      return "H8-incompatible";
-    case Method::HexBBar:
-      return "H8-Bbar";
-    case Method::Hex:
-      return "H8";
-    case Method::TetQuadratic:
-      return "T10";
-    case Method::TetLinear:
-      return "T4";
-    case Method::WendlandAffine:
-      return "Wendland affine";
-    case Method::WendlandQuadratic:
-      return "Wendland quadratic";
-    case Method::Voronoi:
-      return "Voronoi, CG 200 (published)";
-    case Method::MovingLeastSquares:
-      return "MLS linear";
-    default:
-      return {};
+    case Method::HexIncompatible: return "H8-incompatible";
+    case Method::HexBBar: return "H8-Bbar";
+    case Method::Hex: return "H8";
+    case Method::TetQuadratic: return "T10";
+    case Method::TetLinear: return "T4";
+    case Method::WendlandAffine: return "Wendland affine";
+    case Method::WendlandQuadratic: return "Wendland quadratic";
+    case Method::Voronoi: return "Voronoi, CG 200 (published)";
+    case Method::MovingLeastSquares: return "MLS linear";
+    default: return {};
   }
 }
 

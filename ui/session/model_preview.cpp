@@ -71,7 +71,7 @@ struct ModelPreview::Body {
   std::string key;
   retraction::Model model;
   image::Mask cells;
-  mechanics::TriangleSurface smooth;  ///< of the model's smooth body
+  mechanics::TriangleSurface smooth;                   ///< of the model's smooth body
   std::shared_ptr<const tools::ModelPicture> picture;  ///< without supports and bar
 };
 
@@ -184,8 +184,8 @@ tools::BarPlace patchPlace(const retraction::Retractor& bar, const retraction::B
   return at;
 }
 
-/// The centre line of a hook at first touch, as the run bends it: to the side that its grid's axes make of the hoist and
-/// the bar's axis. mm throughout.
+/// The centre line of a hook at first touch, as the run bends it: to the side that its grid's axes make of the hoist
+/// and the bar's axis. mm throughout.
 std::vector<Eigen::Vector3d> hookLine(const tools::BarPlace& at, const image::Grid& grid,
                                       const mechanics::TriangleSurface& liver) {
   constexpr double reach_mm = 30.0, near_mm = 0.05;  // it touches elsewhere than a straight bar, along the hoist
@@ -196,9 +196,8 @@ std::vector<Eigen::Vector3d> hookLine(const tools::BarPlace& at, const image::Gr
   bar.radius_m = 0.5 * at.diameter_mm;
   bar.hoist = at.direction;
   const auto free = [&](double travel_mm) {
-    return std::all_of(liver.vertices.begin(), liver.vertices.end(), [&](const Eigen::Vector3d& p) {
-      return mechanics::gapTo(bar, p, travel_mm).g_m >= 0.0;
-    });
+    return std::all_of(liver.vertices.begin(), liver.vertices.end(),
+                       [&](const Eigen::Vector3d& p) { return mechanics::gapTo(bar, p, travel_mm).g_m >= 0.0; });
   };
   double low_mm = -reach_mm, high_mm = reach_mm;
   if (free(low_mm) && !free(high_mm)) {
@@ -213,8 +212,8 @@ std::vector<Eigen::Vector3d> hookLine(const tools::BarPlace& at, const image::Gr
 
 /// The bar of a scene; where it cannot lie at the point given it is shown there, with the reason.
 void placeBar(const pipeline::Scene& scene, const retraction::Model& model, const mechanics::TriangleSurface& smooth,
-              const retraction::Body& body, const image::Mask& cells, const std::optional<retraction::PlacedBar>& proved,
-              tools::ModelPicture& picture) {
+              const retraction::Body& body, const image::Mask& cells,
+              const std::optional<retraction::PlacedBar>& proved, tools::ModelPicture& picture) {
   for (const retraction::LoadSpec& load : scene.setup.loads) {
     const auto* bar = std::get_if<retraction::Retractor>(&load);
     if (!bar) continue;

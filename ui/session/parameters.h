@@ -2,14 +2,14 @@
 
 #include "base/quantity.h"
 #include "retraction/setup.h"
-#include "session/placement.h"
 #include "session/methods.h"
+#include "session/placement.h"
 
 namespace glisson::session {
 
 /// What can be set on the Model and Retract pages; everything goes into the scene file. The defaults are those of the
-/// scene that comes with a synthetic patient: a rigid bar in large deformation, with Glisson's capsule. The case that is
-/// saved says so: run by command it gives the window's numbers.
+/// scene that comes with a synthetic patient: a rigid bar in large deformation, with Glisson's capsule. The case that
+/// is saved says so: run by command it gives the window's numbers.
 struct Parameters {
   // Model
   double poisson = defaults::poisson;  ///< unitless
@@ -18,7 +18,7 @@ struct Parameters {
   double cell_mm = 0.0;                                 ///< edge of a cell; 0 = twice the MRI's smaller pixel spacing
   int frames = 200;                                     ///< mesh-free sites
   double tetEdge_mm = retraction::ModelSpec{}.cell_mm;  ///< Delaunay: edges of the tetrahedra
-  double tetToolEdge_mm = retraction::ModelSpec{}.toolCell_mm;         ///< and near the retractor
+  double tetToolEdge_mm = retraction::ModelSpec{}.toolCell_mm;       ///< and near the retractor
   retraction::Kinematics kinematics = retraction::Kinematics::Auto;  ///< large deformation: hexahedra at rest only
   Solver solver = Solver::Auto;
   bool dynamic = false;  ///< time steps to the new rest instead of one solve; hexahedra and mesh-free only

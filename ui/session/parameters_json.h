@@ -62,8 +62,8 @@ inline Parameters parametersFromJson(const nlohmann::json& j) {
   // Cases of before these could be set have the defaults.
   p.tetEdge_mm = j.value("tet_edge_mm", p.tetEdge_mm);
   p.tetToolEdge_mm = j.value("tet_tool_edge_mm", p.tetToolEdge_mm);
-  p.kinematics =
-      named(kinematicsNames, j.value("kinematics", nameIn(kinematicsNames, retraction::Kinematics::Linear)), "kinematics");
+  p.kinematics = named(kinematicsNames, j.value("kinematics", nameIn(kinematicsNames, retraction::Kinematics::Linear)),
+                       "kinematics");
   p.solver = named(solverNames, j.value("solver", nameIn(solverNames, p.solver)), "solver");
   p.dynamic = j.value("dynamic", p.dynamic);
   p.step_ms = j.value("step_ms", p.step_ms);

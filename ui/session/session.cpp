@@ -232,17 +232,31 @@ StepStatus Session::status(Step step) const {
   return {StepState::Done, tr("mean %1 mm").arg(result_->difference->mean_mm, 0, 'f', 2)};
 }
 
-void Session::measure() {
-  if (!images_.stiffness || !images_.mri) {
-    statistics_ = {};
-    statistics_.reason = tr("No elastogram is open.");
-    emit statisticsChanged();
-    return;
+namespace {
+
+/// The region that counts, as a run takes it: empty slices between outlines are filled by shape. Null where none
+/// counts.
+std::shared_ptr<const image::Mask> regionOf(const commands::Outlines& counted, const image::Grid& grid) {
+  pipeline::LoadedRoi roi;
+  roi.contours = counted;
+  try {
+    pipeline::completeOutlines(roi, grid);
+    return std::make_shared<const image::Mask>(roi::rasterise(*roi.contours, grid));
+  } catch (const BadInput&) {
+    return nullptr;  // statistics say why
   }
-  if (measurer_.busy()) {
-    measureAgain_ = true;
-    return;
-  }
+}
+
+double volumeOf_mL(const image::Mask& region) {
+  const auto inside = std::count_if(region.values.begin(), region.values.end(), [](auto v) { return v != 0; });
+  return 1e-3 * static_cast<double>(inside) * region.grid.voxelVolume_mm3();
+}
+
+}  // namespace
+
+// A closed outline that is being adjusted counts in the live readout, though it is not accepted yet; so does the one
+// that is being drawn.
+commands::Outlines Session::countedNow() const {
   commands::Outlines counted = contours_;
   if (tool_.preview().cols() > 0 && tool_.selected())
     counted.polygons[*tool_.selected()].points_lps_mm = tool_.preview();
@@ -251,30 +265,55 @@ void Session::measure() {
     inWork.points_lps_mm = tool_.drawing();
     counted.polygons.push_back(std::move(inWork));
   }
-  // A closed outline that is being adjusted counts in the live readout, though it is not accepted yet.
   if (tool_.state() == tools::ToolState::Editing && tool_.selected() && *tool_.selected() < counted.polygons.size())
     counted.polygons[*tool_.selected()].state = roi::PolygonState::Accepted;
+  return counted;
+}
+
+void Session::measure() {
+  const auto nothing = [this](const QString& why) {
+    statistics_ = {};
+    statistics_.reason = why;
+    emit statisticsChanged();
+  };
+  if (!images_.mri) {
+    nothing(tr("No elastogram is open."));
+    return;
+  }
+  if (measurer_.busy()) {
+    measureAgain_ = true;
+    return;
+  }
+  const commands::Outlines counted = countedNow();
   const bool any = std::any_of(counted.polygons.begin(), counted.polygons.end(),
                                [](const auto& p) { return p.state != roi::PolygonState::Draft; });
   if (!any) {
-    statistics_ = {};
-    statistics_.reason = tr("Draw an outline to measure.");
-    emit statisticsChanged();
+    nothing(images_.stiffness ? tr("Draw an outline to measure.") : tr("No elastogram is open."));
     return;
   }
   struct Measured {
     LiveStatistics live;
     std::shared_ptr<const image::Mask> inner;
   };
+  // Another slice has another readout and the same region.
+  const RegionKey key{revision_, tool_.state(), tool_.selected()};
+  const bool inWork = tool_.preview().cols() > 0 || tool_.drawing().cols() >= 3;
+  const auto region = !inWork && key == regionKey_ ? statistics_.region : nullptr;
+  regionKey_ = inWork ? std::nullopt : std::optional(key);
   auto now = std::make_shared<Measured>();
   measurer_.start(
-      [now, counted = measuredContours(counted, images_.mri->grid, images_.stiffness->values_kPa.grid),
-       images = images_, plane = plane_, settings = measure_](const Progress&) {
-        const image::Grid& grid = images.stiffness->values_kPa.grid;
+      [now, counted, region, images = images_, plane = plane_, settings = measure_](const Progress&) {
         LiveStatistics& live = now->live;
+        live.region = region ? region : regionOf(counted, images.mri->grid);
+        if (live.region) live.volume_mL = volumeOf_mL(*live.region);
+        if (!images.stiffness) {
+          live.reason = tr("No elastogram is open.");
+          return;
+        }
+        const image::Grid& grid = images.stiffness->values_kPa.grid;
         try {
           pipeline::LoadedRoi roi;
-          roi.contours = counted;
+          roi.contours = measuredContours(counted, images.mri->grid, grid);
           // As a run and the command line measure: empty slices between outlines are interpolated.
           const elastography::MappedRoi mapped = pipeline::mapRoi(roi, images.mri->grid, *images.stiffness);
           elastography::MeasureOptions options;
@@ -282,8 +321,8 @@ void Session::measure() {
           if (settings.innerRoi)
             now->inner = std::make_shared<image::Mask>(image::erodeInPlane(mapped.mask, settings.erosion_pixels));
           live.pooled = elastography::measure(*images.stiffness, mapped.mask, options);
-        } catch (const Error& nothing) {
-          live.reason = QString::fromUtf8(nothing.what());
+        } catch (const Error& none) {
+          live.reason = QString::fromUtf8(none.what());
           return;
         }
         if (!plane) return;

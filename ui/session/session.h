@@ -17,12 +17,15 @@
 #include "image/volume.h"
 #include "pipeline/run.h"
 #include "pipeline/scene.h"
+#include "pipeline/sources.h"
 #include "roi/contour_stack.h"
 #include "session/case_file.h"
 #include "session/case_lock.h"
 #include "session/interpolated_slices.h"
 #include "session/journal.h"
+#include "session/offered_regions.h"
 #include "session/parameters.h"
+#include "session/retraction_video.h"
 #include "session/step.h"
 #include "session/work_folder.h"
 #include "session/worker.h"
@@ -63,8 +66,16 @@ struct Unsaved {
   bool any() const { return outlines || settings; }
 };
 
+/// What could not be opened, and why.
+struct Refusal {
+  QString what;    ///< name of the file or folder, without its place
+  QString reason;  ///< a sentence
+};
+
 /// Stiffness under the contours, outline in work included.
 struct LiveStatistics {
+  std::shared_ptr<const image::Mask> region;        ///< what counts, on the MRI grid, with empty slices filled by shape
+  double volume_mL = 0.0;                           ///< of that
   std::optional<elastography::Statistics> slice;    ///< of the elastogram's slice nearest to the one shown
   std::optional<elastography::Measurement> pooled;  ///< of all slices
   QString reason;                                   ///< why there are none
@@ -95,14 +106,23 @@ class Session : public QObject {
   ~Session() override;
 
   // Load
-  void openPath(const QString& path);  ///< a folder or file of DICOM
+  void openPath(const QString& path);  ///< a folder, DICOMDIR, archive, volume file or case
+  /// Several at once: volumes, masks, maps and folders that belong together. A region that was named is taken as
+  /// outlines, where it is the only one. One path: as openPath.
+  void openPaths(const QStringList& paths);
+  /// Why the last opening was refused; empty once something was opened. What was open before stays.
+  const std::optional<Refusal>& refusal() const { return refusal_; }
+  /// Regions beside the images that could be taken as outlines.
+  const std::vector<OfferedRegion>& regions() const { return regions_; }
   /// Makes a synthetic patient, written as DICOM below folder (empty: the cache), and opens it like any other.
   void openSynthetic(std::uint64_t seed = 1, const QString& folder = {});
   const dicom::ScanResult& scan() const { return scan_; }
   const QString& path() const { return path_; }
   const OpenImages& images() const { return images_; }
-  /// Corrects what a series is for; the images are read again, outlines stay. index: of scan().series.
+  /// Corrects what a series is for, and makes it the one in use of its role; the images are read again, outlines stay.
+  /// index: of scan().series.
   void setRole(int index, dicom::SeriesRole role);
+  bool inUse(int index) const;  ///< of scan().series: shown or measured
   /// Answers to images().question; kept in the case, and the command line takes them from there. no: the elastogram
   /// stays left out. setMeaning throws BadInput for a unit that is none.
   void useTogether(bool yes);
@@ -123,6 +143,7 @@ class Session : public QObject {
   /// confirm: asked where they have another frame of reference; told by message where nobody can be asked. Throws
   /// BadInput, also where they belong to another patient or day.
   void importContours(const QString& file, const std::function<bool(const QString&)>& confirm = {});
+  void importRegion(const OfferedRegion& region, const std::function<bool(const QString&)>& confirm = {});
   void park();                                         ///< what is being drawn becomes a draft of its slice
   void setShownPlane(const tools::SlicePlane& plane);  ///< of the MRI: where live statistics look
   const LiveStatistics& statistics() const { return statistics_; }
@@ -181,6 +202,8 @@ class Session : public QObject {
   QString runFolder() const;
   /// Pictures, report and record of the last run (export_results.h) into the folder, by a worker; ends with exported.
   void exportInto(const QString& folder, render::Palette palette);
+  /// A film of the last run (retraction_video.h), by a worker; ends with exported.
+  void exportVideo(const QString& file, const VideoWish& wish);
 
   // Case
   /// Writes case.json, contours.json and scene.json so that `glisson-cli run case.json` gives the same numbers.
@@ -228,9 +251,15 @@ class Session : public QObject {
     std::filesystem::path caseFolder;
     std::shared_ptr<CaseLock> lock;
     std::optional<Journalled> journalled;
+    std::vector<std::string> files;  ///< Choices::files, where nothing else holds them
   };
   struct Opened;
-  void startLoad(std::function<Wanted(const Progress&)> prepare, const QString& what);
+  void startLoad(std::function<Wanted(const Progress&)> prepare, const QString& what, const QString& name);
+  static void openInto(Opened& opened, const std::filesystem::path& work, const Progress& progress);
+  void loadEnded(Opened& opened, const QString& name, std::exception_ptr failure);
+  void takeOnlyRegion(const pipeline::LoadedRoi& region);
+  bool takeOutlines(const pipeline::LoadedRoi& roi, const std::function<bool(const QString&)>& confirm);
+  void keepLastRun(const std::filesystem::path& folder);
   static Wanted wantedCase(const std::filesystem::path& path);
   void take(Opened& opened);
   void drawnOn();
@@ -248,6 +277,7 @@ class Session : public QObject {
   void paste(const std::vector<int>& slices, roi::PolygonState state, const char* text);
   void ended(Work work, std::exception_ptr failure);
   void measure();
+  commands::Outlines countedNow() const;
   void contoursTouched();
   void replaceContours(roi::ContourStack after, const char* text);
   mutable std::unique_ptr<WorkFolder> ownFolder_;  ///< goes after the workers
@@ -258,6 +288,8 @@ class Session : public QObject {
   QString path_;
   dicom::ScanResult scan_, guessed_;
   OpenImages images_;
+  std::vector<OfferedRegion> regions_;
+  std::optional<Refusal> refusal_;
   commands::Outlines contours_;
   roi::ContourStack second_;
   std::vector<roi::Polygon> clipboard_;
@@ -267,6 +299,13 @@ class Session : public QObject {
   tools::PolygonTool tool_;
   std::optional<tools::SlicePlane> plane_;
   LiveStatistics statistics_;
+  struct RegionKey {
+    std::uint64_t revision = 0;
+    tools::ToolState state{};
+    std::optional<std::size_t> selected;
+    bool operator==(const RegionKey&) const = default;
+  };
+  std::optional<RegionKey> regionKey_;  ///< what statistics_.region was made of
   QTimer measureTimer_;
   Parameters parameters_;
   struct Placed {
@@ -295,6 +334,10 @@ class Session : public QObject {
   QTimer autosave_;
   std::shared_ptr<const pipeline::RunResult> result_;
   std::shared_ptr<const render::RetractionScene> picture_;
+  struct {
+    QString folder;
+    std::weak_ptr<const pipeline::RunResult> result;
+  } lastKept_;                                       ///< run and case folder that hold each other already
   std::uint64_t revision_ = 0, resultRevision_ = 0;  ///< of everything a run depends on
   Unsaved unsaved_;
   std::array<QString, 5> failure_;  ///< per step, empty where none

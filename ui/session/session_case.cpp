@@ -9,9 +9,11 @@
 #include "roi/contour_io.h"
 #include "roi/polygon.h"
 #include "session/imported_roi.h"
+#include "session/kept_results.h"
 #include "session/measured_contours.h"
 #include "session/session.h"
 #include "session/setup_of.h"
+#include "session/volume_files.h"
 
 namespace glisson::session {
 
@@ -24,7 +26,7 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
   s.material.kind =
       parameters_.useMre && images_.stiffness ? pipeline::MaterialSpec::Kind::Mre : pipeline::MaterialSpec::Kind::Atlas;
   const Choices& choices = images_.choices;
-  s.geometry.roles = choices.roles;
+  s.geometry.roles = dicomRoles(choices.roles);
   s.geometry.overrideChecks = choices.together.value_or(false) || choices.otherFrame;
   s.geometry.mreQuantity = choices.quantity;
   s.geometry.mreUnit = choices.unit;
@@ -81,6 +83,7 @@ CaseRecord Session::caseRecord(const std::filesystem::path& folder) const {
   record.seriesUid = contours_.seriesUid;
   static_cast<Settings&>(record) = settings();
   record.outlines = contours_;
+  if (result_) record.lastRunStale = resultIsStale();
   record.sceneJson = pipeline::toJson(scene(folder));  // without images yet; see saveFiles
   return record;
 }
@@ -103,6 +106,7 @@ void Session::saveCase(const QString& folder) {
     lock_ = std::move(lock);
   }
   const int version = saveFiles(caseRecord(target), caseFiles(target), target);
+  keepLastRun(target);
   caseFolder_ = folder;
   unsaved_ = {};
   beginJournal();
@@ -110,24 +114,55 @@ void Session::saveCase(const QString& folder) {
   emit statusChanged();
 }
 
+// The run goes where its case goes; a folder that held another case's gives that one up. A case without its results is
+// still a case: that they could not be kept is said, and what was saved stays.
+void Session::keepLastRun(const std::filesystem::path& folder) {
+  const QString name = QString::fromStdString(folder.string());
+  if (!result_) {
+    if (name != caseFolder_) forgetRun(folder);
+    return;
+  }
+  if (work_ == Work::Run || (lastKept_.folder == name && lastKept_.result.lock() == result_)) return;
+  try {
+    keepRun(workFolder().toStdString(), folder);
+    lastKept_ = {name, result_};
+  } catch (const BadInput& e) {
+    emit message(QString::fromUtf8(e.what()));
+  }
+}
+
 void Session::saveInBackground() {
   if (saver_.busy() || caseFolder_.isEmpty() || !images_.mri) return;
   const std::filesystem::path target = caseFolder_.toStdString();
   auto version = std::make_shared<int>(0);
-  saver_.start([version, target, record = caseRecord(target),
-                files = caseFiles(target)](const Progress&) { *version = saveFiles(record, files, target); },
-               [this, version, revision = revision_, written = settings()](std::exception_ptr failure) {
-                 if (failure) {
-                   emit saveFailed(reasonOf(failure));
-                   return;
-                 }
-                 if (revision == revision_ && written == settings()) {
-                   unsaved_ = {};
-                   beginJournal();
-                 }
-                 emit saved(*version);
-                 emit statusChanged();
-               });
+  auto notKept = std::make_shared<std::string>();
+  const bool keeps =
+      result_ && work_ != Work::Run && (lastKept_.folder != caseFolder_ || lastKept_.result.lock() != result_);
+  saver_.start(
+      [version, target, notKept, keeps, work = std::filesystem::path(workFolder().toStdString()),
+       record = caseRecord(target), files = caseFiles(target)](const Progress&) {
+        *version = saveFiles(record, files, target);
+        try {
+          if (keeps) keepRun(work, target);
+        } catch (const BadInput& e) {
+          *notKept = e.what();
+        }
+      },
+      [this, version, notKept, keeps, result = result_, folder = caseFolder_, revision = revision_,
+       written = settings()](std::exception_ptr failure) {
+        if (failure) {
+          emit saveFailed(reasonOf(failure));
+          return;
+        }
+        if (keeps && notKept->empty()) lastKept_ = {folder, result};
+        if (!notKept->empty()) emit message(QString::fromStdString(*notKept));
+        if (revision == revision_ && written == settings()) {
+          unsaved_ = {};
+          beginJournal();
+        }
+        emit saved(*version);
+        emit statusChanged();
+      });
 }
 
 void Session::beginJournal() {
@@ -171,11 +206,29 @@ void Session::park() {
 
 void Session::importContours(const QString& file, const std::function<bool(const QString&)>& confirm) {
   if (!images_.mri) throw BadInput("open images first; outlines belong to an image series");
-  const pipeline::LoadedRoi roi = pipeline::loadRoi(file.toStdString(), {}, 0);
+  takeOutlines(pipeline::loadRoi(file.toStdString(), {}, 0), confirm);
+}
+
+void Session::importRegion(const OfferedRegion& region, const std::function<bool(const QString&)>& confirm) {
+  if (!images_.mri) throw BadInput("open images first; outlines belong to an image series");
+  takeOutlines(pipeline::loadRoi(region.file, {}, region.number), confirm);
+}
+
+// A region that was named beside the images: refused with a message only, since the images are open all the same.
+void Session::takeOnlyRegion(const pipeline::LoadedRoi& region) {
+  if (!images_.mri) return;
+  try {
+    takeOutlines(region, {});
+  } catch (const BadInput& e) {
+    emit message(QString::fromUtf8(e.what()));
+  }
+}
+
+bool Session::takeOutlines(const pipeline::LoadedRoi& roi, const std::function<bool(const QString&)>& confirm) {
   const Belonging where = belongs(roi, scan_.series[static_cast<std::size_t>(images_.mriSeries)]);
   if (!where.refusal.isEmpty()) throw BadInput(where.refusal.toStdString());
   if (!where.doubt.isEmpty() && confirm) {
-    if (!confirm(where.doubt)) return;
+    if (!confirm(where.doubt)) return false;
     images_.choices.otherFrame = true;
     settingsTouched();
   }
@@ -185,6 +238,7 @@ void Session::importContours(const QString& file, const std::function<bool(const
   replaceContours(std::move(imported), "import outlines");
   const QString said = QStringList{confirm ? QString() : where.doubt, where.notes}.join(QLatin1Char(' ')).trimmed();
   if (!said.isEmpty()) emit message(said);
+  return true;
 }
 
 }  // namespace glisson::session

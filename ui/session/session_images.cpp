@@ -5,7 +5,9 @@
 #include "base/map_unit.h"
 #include "dicom/acquisitions.h"
 #include "pipeline/sources.h"
+#include "session/said.h"
 #include "session/session.h"
+#include "session/volume_files.h"
 
 namespace glisson::session {
 
@@ -71,7 +73,7 @@ std::vector<std::shared_ptr<const image::ScalarVolume>> readWave(const dicom::Sc
   for (std::size_t t = 0; t < steps.size(); ++t) {
     const double n = static_cast<double>(steps.size());
     auto volume = std::make_shared<image::ScalarVolume>(
-        dicom::readSeries(*steps[t], progress.part(static_cast<double>(t) / n, static_cast<double>(t + 1) / n)));
+        readImage(*steps[t], progress.part(static_cast<double>(t) / n, static_cast<double>(t + 1) / n)));
     if (wave.empty() || wave.front()->grid.sameGeometry(volume->grid)) wave.push_back(std::move(volume));
   }
   return wave;
@@ -116,21 +118,24 @@ OpenImages readImages(const dicom::ScanResult& scan, const dicom::ScanResult& gu
                       const std::filesystem::path& root, const Choices& choices, const Progress& progress) {
   OpenImages images;
   images.choices = choices;
-  const dicom::RoleOverrides& roles = choices.roles;
+  const dicom::RoleOverrides roles = dicomRoles(choices.roles);
   images.mriSeries = indexOf(scan, dicom::SeriesRole::Anatomical);
   if (images.mriSeries < 0) images.mriSeries = indexOf(scan, dicom::SeriesRole::Magnitude);
   images.stiffnessSeries = indexOf(scan, dicom::SeriesRole::Stiffness);
-  // What belongs to the stiffness that is shown, never the first of its kind.
+  const auto series = [&scan](int i) -> const dicom::Series& { return scan.series[static_cast<std::size_t>(i)]; };
+  const bool bareMap = images.stiffnessSeries >= 0 && isVolume(series(images.stiffnessSeries));
+  // A map by itself is drawn on as it is.
+  if (images.mriSeries < 0 && bareMap) images.mriSeries = images.stiffnessSeries;
+  // What belongs to the stiffness that is shown, never the first of its kind. A volume file belongs to no acquisition.
   dicom::Acquisition acquisition;
-  if (images.stiffnessSeries >= 0) acquisition = dicom::partnersOf(scan, images.stiffnessSeries);
+  if (images.stiffnessSeries >= 0 && !bareMap) acquisition = dicom::partnersOf(scan, images.stiffnessSeries);
+  if (acquisition.confidence >= 0 && isVolume(series(acquisition.confidence))) acquisition.confidence = -1;
   images.confidenceSeries = acquisition.confidence;
   if (images.mriSeries < 0)
     throw BadInput(Session::tr("no anatomical or magnitude MR series was found; give a series that role in the table")
                        .toStdString());
-  const auto series = [&scan](int i) -> const dicom::Series& { return scan.series[static_cast<std::size_t>(i)]; };
   progress.report(0.0, "reading MRI");
-  images.mri =
-      std::make_shared<image::ScalarVolume>(dicom::readSeries(series(images.mriSeries), progress.part(0.0, 0.5)));
+  images.mri = std::make_shared<image::ScalarVolume>(readImage(series(images.mriSeries), progress.part(0.0, 0.5)));
   // From the folder of the series up to the one that was opened: the first that means these series and no others.
   const auto outwards = [&root](std::filesystem::path folder, const auto& right) -> std::filesystem::path {
     for (;; folder = folder.parent_path()) {
@@ -143,8 +148,7 @@ OpenImages readImages(const dicom::ScanResult& scan, const dicom::ScanResult& gu
     const bool alone = images.stiffnessSeries < 0;
     const int magnitude = alone ? indexOf(scan, dicom::SeriesRole::Magnitude) : acquisition.magnitude;
     if (magnitude >= 0 && magnitude != images.mriSeries)
-      images.magnitude =
-          std::make_shared<image::ScalarVolume>(dicom::readSeries(series(magnitude), progress.part(0.5, 0.55)));
+      images.magnitude = std::make_shared<image::ScalarVolume>(readImage(series(magnitude), progress.part(0.5, 0.55)));
     const int wave = alone                      ? indexOf(scan, dicom::SeriesRole::Wave)
                      : acquisition.wave.empty() ? -1
                                                 : acquisition.wave.front();
@@ -152,7 +156,10 @@ OpenImages readImages(const dicom::ScanResult& scan, const dicom::ScanResult& gu
   } catch (const BadInput& e) {
     images.note = QString::fromUtf8(e.what());
   }
-  if (!roles.empty()) images.mriSource = root;
+  if (isVolume(series(images.mriSeries)))
+    images.mriSource = series(images.mriSeries).files.front();
+  else if (!roles.empty())
+    images.mriSource = root;
   if (images.mriSource.empty())
     images.mriSource = outwards(commonFolder(series(images.mriSeries)), [&](const std::filesystem::path& folder) {
       return findsIt(guessed, folder, dicom::SeriesRole::Anatomical, series(images.mriSeries).uid);
@@ -169,7 +176,9 @@ OpenImages readImages(const dicom::ScanResult& scan, const dicom::ScanResult& gu
   pipeline::MapMeaning meaning;
   meaning.quantity = choices.quantity;
   meaning.unit = choices.unit;
-  elastography::StiffnessMap map = pipeline::readStiffness(stiffness, meaning, said, progress.part(0.6, 0.85));
+  elastography::StiffnessMap map =
+      bareMap ? pipeline::loadStiffness(stiffness.files.front(), meaning, progress.part(0.6, 0.85)).map
+              : pipeline::readStiffness(stiffness, meaning, said, progress.part(0.6, 0.85));
   if (map.quantity == StiffnessQuantity::Youngs) {
     // Everything in the window is a shear modulus; a run takes the map as it is, with the Poisson's ratio of its model.
     map = elastography::toQuantity(map, StiffnessQuantity::Shear, defaults::poisson);
@@ -182,9 +191,12 @@ OpenImages readImages(const dicom::ScanResult& scan, const dicom::ScanResult& gu
     pipeline::readConfidence(series(images.confidenceSeries), {}, map, said, progress.part(0.85, 1.0));
   else
     images.note += Session::tr("No confidence map was found: every voxel with a stiffness counts.");
-  for (const std::string& text : said.texts(Severity::Warning))
-    images.note += QLatin1Char(' ') + QString::fromStdString(text) + QLatin1Char('.');
-  if (!roles.empty()) images.mreSource = root;
+  for (const Diagnostic& d : said)
+    if (d.severity() >= Severity::Warning) images.note += QLatin1Char(' ') + session::said(d) + QLatin1Char('.');
+  if (bareMap)
+    images.mreSource = stiffness.files.front();
+  else if (!roles.empty())
+    images.mreSource = root;
   if (images.mreSource.empty())
     images.mreSource = outwards(commonFolder(stiffness), [&](const std::filesystem::path& folder) {
       return findsIt(guessed, folder, dicom::SeriesRole::Stiffness, stiffness.uid) &&

@@ -4,7 +4,9 @@
 #include "base/error.h"
 #include "phantom/phantom.h"
 #include "pipeline/case_folder.h"
+#include "session/kept_results.h"
 #include "session/session.h"
+#include "session/volume_files.h"
 
 namespace glisson::session {
 
@@ -14,21 +16,34 @@ struct Session::Opened {
   dicom::ScanResult scan, guessed;
   Settings settings;  ///< of the case or the journal; else the defaults
   OpenImages images;
-  std::string failure;  ///< images could not be read; the scan is shown all the same
+  std::vector<OfferedRegion> regions;
+  std::optional<pipeline::LoadedRoi> region;  ///< the only one of files that were named, to be taken as outlines
+  std::optional<ShownRun> run;                ///< kept in the case
+  std::string notKept;                        ///< why a run that is kept cannot be shown
+  std::string failure;                        ///< images could not be read; the scan is shown all the same
 };
 
 void Session::openPath(const QString& path) {
+  openPaths({path});
+}
+
+void Session::openPaths(const QStringList& paths) {
+  if (paths.isEmpty()) return;
+  std::vector<std::filesystem::path> there;
   std::error_code unknown;
-  const std::filesystem::path there =
-      std::filesystem::weakly_canonical(std::filesystem::absolute(path.toStdString(), unknown), unknown);
+  for (const QString& path : paths)
+    there.push_back(std::filesystem::weakly_canonical(std::filesystem::absolute(path.toStdString(), unknown), unknown));
+  const auto [source, files] = commonFolder(there);
+  const QString name = QString::fromStdString(there.front().filename().string());
   startLoad(
-      [there](const Progress&) {
-        if (pipeline::isCase(there)) return wantedCase(there);
+      [source = source, files = files](const Progress&) {
+        if (files.empty() && pipeline::isCase(source)) return wantedCase(source);
         Wanted wanted;
-        wanted.path = there;
+        wanted.path = source;
+        wanted.files = files;
         return wanted;
       },
-      tr("Opening"));
+      tr("Opening"), paths.size() == 1 ? name : tr("%1 and %2 more").arg(name).arg(paths.size() - 1));
 }
 
 Session::Wanted Session::wantedCase(const std::filesystem::path& path) {
@@ -59,7 +74,7 @@ void Session::openSynthetic(std::uint64_t seed, const QString& folder) {
         wanted.path = target;
         return wanted;
       },
-      tr("Opening the synthetic patient"));
+      tr("Opening the synthetic patient"), tr("The synthetic patient"));
 }
 
 void Session::recover(const Journalled& journalled) {
@@ -72,60 +87,107 @@ void Session::recover(const Journalled& journalled) {
         wanted.journalled = journalled;
         return wanted;
       },
-      tr("Recovering"));
+      tr("Recovering"), tr("What was left behind"));
 }
 
-void Session::startLoad(std::function<Wanted(const Progress&)> prepare, const QString& what) {
+namespace {
+
+/// Why nothing of a folder could be opened: what was looked at, and what was wrong with it.
+QString whyNothing(const dicom::ScanResult& scan) {
+  QString why = Session::tr(
+      "There is no DICOM series, volume or case here; choose a DICOM folder, DICOMDIR, ZIP archive, a NIfTI, NRRD or "
+      "MetaImage volume, or case.json.");
+  constexpr std::size_t shown = 3;
+  for (std::size_t i = 0; i < std::min(shown, scan.skipped.size()); ++i)
+    why += QStringLiteral("\n%1: %2")
+               .arg(QString::fromStdString(scan.skipped[i].file.filename().string()),
+                    QString::fromStdString(scan.skipped[i].reason));
+  if (scan.skipped.size() > shown)
+    why += QLatin1Char('\n') + Session::tr("and %1 more files").arg(scan.skipped.size() - shown);
+  return why;
+}
+
+}  // namespace
+
+// On a thread of the worker: everything that reading takes.
+void Session::openInto(Opened& opened, const std::filesystem::path& work, const Progress& progress) {
+  const Wanted& wanted = opened.wanted;
+  opened.settings.choices.files = wanted.files;
+  if (wanted.record) opened.settings = *wanted.record;
+  // What a journal holds is newer than its case.
+  if (wanted.journalled && wanted.journalled->settings) opened.settings = *wanted.journalled->settings;
+  const Choices& choices = opened.settings.choices;
+  opened.scan = scanAll(wanted.path, choices.files, progress.part(0.0, 0.4));
+  if (opened.scan.series.empty()) throw BadInput(whyNothing(opened.scan).toStdString());
+  opened.guessed = opened.scan;
+  dicom::applyRoles(opened.scan, choices.roles);
+  opened.regions = offeredRegions(opened.scan, progress.part(0.4, 0.45));
+  try {
+    opened.images = readImages(opened.scan, opened.guessed, wanted.path, choices, progress.part(0.45, 0.9));
+  } catch (const BadInput& e) {
+    opened.images.choices = choices;
+    opened.failure = e.what();
+    return;
+  }
+  std::error_code unknown;
+  const bool named = !choices.files.empty() ||
+                     (std::filesystem::is_regular_file(wanted.path, unknown) && isVolume(opened.scan.series.front()));
+  if (named && !wanted.record && !wanted.journalled && opened.regions.size() == 1) {
+    const OfferedRegion& only = opened.regions.front();
+    opened.region = pipeline::loadRoi(only.file, {}, only.number, progress.part(0.9, 1.0));
+  }
+  // What was drawn since is newer than the run, which would be taken for its own.
+  if (wanted.record && wanted.record->lastRunStale && !wanted.journalled) {
+    try {
+      opened.run = keptRun(wanted.caseFolder, work);
+    } catch (const BadInput& e) {
+      opened.notKept = e.what();
+    }
+  }
+}
+
+void Session::startLoad(std::function<Wanted(const Progress&)> prepare, const QString& what, const QString& name) {
   if (stillAtWork()) return;
   auto opened = std::make_shared<Opened>();
   work_ = Work::Load;
   // The case that is open gives its lock back first: it may be the one that is opened again.
   lock_.reset();
   worker_.start(
-      [opened, prepare](const Progress& progress) {
+      [opened, prepare, work = std::filesystem::path(workFolder().toStdString())](const Progress& progress) {
         opened->wanted = prepare(progress.part(0.0, 0.5));
-        opened->scan = dicom::scan(opened->wanted.path, progress.part(0.5, 0.7));
-        if (opened->scan.series.empty())
-          throw BadInput(tr("There is no DICOM series, volume or case here; choose a DICOM folder, DICOMDIR, ZIP "
-                            "archive or case.json.")
-                             .toStdString());
-        opened->guessed = opened->scan;
-        // What a journal holds is newer than its case.
-        const Wanted& wanted = opened->wanted;
-        if (wanted.record) opened->settings = *wanted.record;
-        if (wanted.journalled && wanted.journalled->settings) opened->settings = *wanted.journalled->settings;
-        const Choices& choices = opened->settings.choices;
-        dicom::applyRoles(opened->scan, choices.roles);
-        try {
-          opened->images = readImages(opened->scan, opened->guessed, wanted.path, choices, progress.part(0.7, 1.0));
-        } catch (const BadInput& e) {
-          opened->images.choices = choices;
-          opened->failure = e.what();
-        }
+        openInto(*opened, work, progress.part(0.5, 1.0));
       },
-      [this, opened](std::exception_ptr failure) {
-        if (!failure) take(*opened);
-        ended(Work::Load, failure);
-        if (failure) {
-          lockAgain();
-          emit message({});  // the Load page says why, once
-          return;
-        }
-        failure_[static_cast<std::size_t>(Step::Load)] = QString::fromStdString(opened->failure);
-        emit contoursChanged();
-        emit parametersChanged();
-        tellImages();
-        if (opened->wanted.journalled && images_.mri) {
-          // Where the reader was: the outline in work comes last, then what was drawn last.
-          const auto& all = contours_.polygons;
-          const auto last = std::find_if(all.rbegin(), all.rend(), [](const roi::Polygon& p) {
-            return p.points_lps_mm.cols() > 0 && p.state != roi::PolygonState::Interpolated;
-          });
-          if (last != all.rend()) emit pointWanted(last->points_lps_mm.rowwise().mean());
-        }
-      });
+      [this, opened, name](std::exception_ptr failure) { loadEnded(*opened, name, failure); });
   emit workStarted(what);
   emit statusChanged();
+}
+
+void Session::loadEnded(Opened& opened, const QString& name, std::exception_ptr failure) {
+  refusal_.reset();
+  if (failure && !wasCancelled(failure)) refusal_ = Refusal{name, reasonOf(failure)};
+  if (!failure) take(opened);
+  ended(Work::Load, failure);
+  if (failure) {
+    if (images_.mri) failure_[static_cast<std::size_t>(Step::Load)].clear();  // what was open still is
+    lockAgain();
+    emit message({});  // the Load page says why, once
+    emit statusChanged();
+    return;
+  }
+  failure_[static_cast<std::size_t>(Step::Load)] = QString::fromStdString(opened.failure);
+  emit contoursChanged();
+  emit parametersChanged();
+  tellImages();  // pages show the run that was kept, too
+  if (!opened.notKept.empty()) emit message(QString::fromStdString(opened.notKept));
+  if (opened.region) takeOnlyRegion(*opened.region);
+  if (opened.wanted.journalled && images_.mri) {
+    // Where the reader was: the outline in work comes last, then what was drawn last.
+    const auto& all = contours_.polygons;
+    const auto last = std::find_if(all.rbegin(), all.rend(), [](const roi::Polygon& p) {
+      return p.points_lps_mm.cols() > 0 && p.state != roi::PolygonState::Interpolated;
+    });
+    if (last != all.rend()) emit pointWanted(last->points_lps_mm.rowwise().mean());
+  }
 }
 
 // Nothing could be opened: what was open stays, and is locked as before.
@@ -161,6 +223,7 @@ void Session::take(Opened& opened) {
   scan_ = std::move(opened.scan);
   guessed_ = std::move(opened.guessed);
   images_ = std::move(opened.images);
+  regions_ = std::move(opened.regions);
   contours_ = {};
   second_ = {};
   clipboard_.clear();
@@ -184,10 +247,14 @@ void Session::take(Opened& opened) {
   tool_.selectPolygon(std::nullopt);
   tool_.contoursChanged();
   plane_.reset();
-  result_.reset();
-  picture_.reset();
   failure_ = {};
   ++revision_;
+  result_ = opened.run ? opened.run->result : nullptr;
+  picture_ = opened.run ? opened.run->picture : nullptr;
+  if (opened.run) {
+    resultRevision_ = revision_ - (*opened.wanted.record->lastRunStale ? 1 : 0);
+    lastKept_ = {caseFolder_, result_};
+  }
   if (!images_.mri) journal_.reset();  // of the patient before
   drawnOn();
 }
@@ -199,7 +266,7 @@ void Session::drawnOn() {
   if (contours_.polygons.empty() || contours_.frameOfReferenceUid.empty() ||
       contours_.frameOfReferenceUid == mri.frameOfReferenceUid) {
     contours_.frameOfReferenceUid = mri.frameOfReferenceUid;
-    contours_.seriesUid = mri.uid;
+    contours_.seriesUid = isVolume(mri) ? std::string() : mri.uid;
   } else if (!images_.choices.otherFrame) {
     emit message(tr("The outlines have another frame of reference than this MRI: check that they lie where they did."));
   }
@@ -209,7 +276,7 @@ void Session::drawnOn() {
 void Session::setRole(int index, dicom::SeriesRole role) {
   if (worker_.busy() || index < 0 || index >= static_cast<int>(scan_.series.size())) return;
   const dicom::Series& series = scan_.series[static_cast<std::size_t>(index)];
-  if (series.role == role) return;
+  if (series.role == role && (inUse(index) || role == dicom::SeriesRole::Other)) return;
   Choices choices = images_.choices;
   // One series has the role by hand: who was given it before becomes "other".
   for (auto& [uid, given] : choices.roles)
@@ -221,6 +288,11 @@ void Session::setRole(int index, dicom::SeriesRole role) {
   choices.unit.reset();
   dicom::applyRoles(scan_, choices.roles);
   readAgain(choices);
+}
+
+bool Session::inUse(int index) const {
+  return (images_.mri && index == images_.mriSeries) ||
+         (images_.stiffness && (index == images_.stiffnessSeries || index == images_.confidenceSeries));
 }
 
 void Session::useTogether(bool yes) {

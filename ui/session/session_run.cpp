@@ -1,5 +1,6 @@
 // Running: the case is saved into the work folder, then run from there by what the command line uses for a case too.
 #include "base/error.h"
+#include "pipeline/result_file.h"
 #include "session/export_results.h"
 #include "session/session.h"
 
@@ -23,6 +24,11 @@ void Session::run() {
         pipeline::RunOptions options;
         options.output = folder / "results";
         *result = pipeline::run(pipeline::readScene(folder / "case.json"), options, progress);
+        // Kept with the case when that is saved; the picture has a file of its own.
+        std::optional<render::RetractionScene> picture = std::move(result->picture);
+        result->picture.reset();
+        pipeline::writeResultFile(options.output, *result);
+        result->picture = std::move(picture);
       },
       [this, result, revision](std::exception_ptr failure) {
         if (!failure) {
@@ -54,6 +60,19 @@ void Session::exportInto(const QString& folder, render::Palette palette) {
         emit exported(*files, wasCancelled(failure) ? tr("cancelled") : reasonOf(failure));
       });
   emit workStarted(tr("Exporting"));
+  emit statusChanged();
+}
+
+void Session::exportVideo(const QString& file, const VideoWish& wish) {
+  if (!picture_ || stillAtWork()) return;
+  work_ = Work::Export;
+  worker_.start([picture = picture_, wish, target = std::filesystem::path(file.toStdString())](
+                    const Progress& progress) { writeRetractionVideo(target, *picture, wish, progress); },
+                [this](std::exception_ptr failure) {
+                  ended(Work::Export, failure);
+                  emit exported(failure ? 0 : 1, wasCancelled(failure) ? tr("cancelled") : reasonOf(failure));
+                });
+  emit workStarted(tr("Filming"));
   emit statusChanged();
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/quantity.h"
 #include "dicom/series.h"
@@ -12,8 +13,9 @@ namespace glisson::session {
 /// What the reader has corrected or confirmed about the images that are open; the scene says the same, so that the
 /// command line takes them alike.
 struct Choices {
-  dicom::RoleOverrides roles;    ///< of series, set by hand
-  std::optional<bool> together;  ///< MRI and elastogram differ in patient, day or frame: used all the same?
+  std::vector<std::string> files;  ///< of the folder that was opened: only these, relative to it; empty: all
+  dicom::RoleOverrides roles;      ///< of series, set by hand
+  std::optional<bool> together;    ///< MRI and elastogram differ in patient, day or frame: used all the same?
   std::optional<StiffnessQuantity> quantity;  ///< of an elastogram that does not say so itself
   std::optional<std::string> unit;            ///< and its unit, as elastography::unitFactor_kPa takes it
   bool otherFrame = false;                    ///< outlines of another frame of reference than the MRI's are meant

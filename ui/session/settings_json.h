@@ -10,6 +10,7 @@ namespace glisson::session {
 
 /// Puts the choices into the object that says which patient it is.
 inline void putChoices(const Choices& choices, nlohmann::json& patient) {
+  if (!choices.files.empty()) patient["files"] = choices.files;
   patient["roles"] = nlohmann::json::object();
   for (const auto& [uid, role] : choices.roles) patient["roles"][uid] = dicom::name(role);
   if (choices.together) patient["together"] = *choices.together;
@@ -22,6 +23,7 @@ inline void putChoices(const Choices& choices, nlohmann::json& patient) {
 /// The reverse. Throws BadInput for a role that is not known, nlohmann's exceptions for another shape.
 inline Choices choicesFromJson(const nlohmann::json& patient) {
   Choices choices;
+  choices.files = patient.value("files", std::vector<std::string>());
   for (const auto& [uid, role] : patient.at("roles").items())
     choices.roles[uid] = dicom::roleNamed(role.get<std::string>());
   if (patient.contains("together")) choices.together = patient["together"].get<bool>();

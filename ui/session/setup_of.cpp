@@ -8,15 +8,11 @@ namespace {
 
 mechanics::SolverKind kindOf(Solver solver) {
   switch (solver) {
-    case Solver::Cg:
-      return mechanics::SolverKind::Cg;
-    case Solver::Multigrid:
-      return mechanics::SolverKind::Multigrid;
-    case Solver::Factorised:
-      return mechanics::SolverKind::Factorised;
+    case Solver::Cg: return mechanics::SolverKind::Cg;
+    case Solver::Multigrid: return mechanics::SolverKind::Multigrid;
+    case Solver::Factorised: return mechanics::SolverKind::Factorised;
     case Solver::Auto:
-    case Solver::Condensed:
-      break;
+    case Solver::Condensed: break;
   }
   return mechanics::SolverKind::Auto;
 }

@@ -13,8 +13,8 @@ retraction::Setup setupOf(const Parameters& parameters);
 /// Why no rigid bar is offered with these parameters; nothing where it is.
 std::optional<retraction::RigidRefusal> rigidRefusal(const Parameters& parameters);
 
-/// The parameters as the scene takes them. Where no rigid bar is offered the contact is a patch; a patch is straight, has
-/// a force (the liver's weight in place of a travel), and no capsule.
+/// The parameters as the scene takes them. Where no rigid bar is offered the contact is a patch; a patch is straight,
+/// has a force (the liver's weight in place of a travel), and no capsule.
 Parameters offered(Parameters parameters);
 
 }  // namespace glisson::session

@@ -1,5 +1,7 @@
 #include "session/worker.h"
 
+#include "session/said.h"
+
 #include <QMetaObject>
 #include <QTimer>
 #include <cmath>
@@ -84,7 +86,7 @@ void Worker::forward() {
   const double elapsed = static_cast<double>(clock_.elapsed()) * 1e-3;
   // A forecast from less than a second or a tenth of the work would only jump about.
   const double left = elapsed > 1.0 && fraction > 0.1 ? elapsed * (1.0 - fraction) / fraction : -1.0;
-  emit progressed(fraction, what, left);
+  emit progressed(fraction, stepInWords(what), left);
 }
 
 QString timeLeft(double seconds) {

@@ -76,6 +76,9 @@ constexpr std::array<KeyEntry, commandCount> keyRows = {{
     {C::Propose, "propose", "G", outline, "Propose an outline: grow a region from under the mouse"},
     {C::CompareReaders, "compare-readers", "Ctrl+Shift+D", outline, "Compare with a second reader's outlines"},
     {C::PlayWave, "play-wave", "V", view, "Play or stop the wave"},
+    {C::Planes, "planes", "T", view, "Three planes, linked by the crosshair"},
+    {C::FillWindow, "fill-window", "Z", view, "The view under the mouse alone, and back"},
+    {C::Fuse, "fuse", "O", view, "Stiffness over the MRI, on and off"},
     {C::Help, "help", "F1", view, "This sheet"},
 }};
 
@@ -89,7 +92,8 @@ constexpr std::array<GestureEntry, 10> gestureRows = {{
     {"Right drag, Ctrl+wheel", "zoom", "zoom, the drawing is kept", "zoom"},
     {"Middle drag, Space+drag", "pan", "pan, the drawing is kept", "pan"},
     {"Wheel", "slice", "slice; the drawing is parked as a draft", "slice"},
-    {"Alt+drag", "window and level", "window and level, the drawing is kept", "window and level"},
+    {"Alt+drag (or right drag: View, Mouse)", "window and level", "window and level, the drawing is kept",
+     "window and level"},
     {"Ctrl+click", "", "", "on an edge: insert a vertex; on a vertex: delete it"},
     {"Shift+click", "inside an outline: start a hole", "steps of 45°", "add to or take from the selection"},
 }};

@@ -71,6 +71,9 @@ enum class Command {
   Propose,
   CompareReaders,
   PlayWave,
+  Planes,
+  FillWindow,
+  Fuse,
   Help
 };
 inline constexpr std::size_t commandCount = static_cast<std::size_t>(Command::Help) + 1;

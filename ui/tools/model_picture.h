@@ -9,8 +9,8 @@
 
 namespace glisson::tools {
 
-/// What is known of a place that was proposed for a rigid bar: that it bears the load is proved by the run, which goes on
-/// to the next place where it does not.
+/// What is known of a place that was proposed for a rigid bar: that it bears the load is proved by the run, which goes
+/// on to the next place where it does not.
 enum class BarProof { None, ByTheRun, Proved };
 
 /// The bar as it lies against the liver, LPS.

@@ -152,8 +152,7 @@ Acts PolygonTool::key(ToolKey key, const SlicePlane& plane) {
         return {RemovePolygon{index}};
       }
       return {};
-    case ToolKey::Delete:
-      return now == ToolState::Drawing ? Acts{} : removeSelection(plane);
+    case ToolKey::Delete: return now == ToolState::Drawing ? Acts{} : removeSelection(plane);
     case ToolKey::Escape:
       if (now == ToolState::Drawing) {
         Acts parked = leaveSlice(plane);

@@ -15,8 +15,8 @@ namespace glisson::views {
 
 namespace {
 
-/// It lies against the liver on the side that the hoist comes from. The length of a rigid bar is that between the centres
-/// of its round ends, that of a patch all of it.
+/// It lies against the liver on the side that the hoist comes from. The length of a rigid bar is that between the
+/// centres of its round ends, that of a patch all of it.
 anatomy::TriangleMesh meshOf(const tools::BarPlace& place) {
   const double radius = 0.5 * place.diameter_mm;
   if (!place.line_lps.empty()) return render::barMesh(place.line_lps, radius);

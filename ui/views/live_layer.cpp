@@ -119,8 +119,12 @@ LiveLayer::LiveLayer(const render::RetractionScene& scene, render::Palette palet
   d_->vesselsAtlas.make(scene.vesselSurface, true);
   if (scene.retractorPoint_lps_mm) {
     rest_lps_ = tool_lps_ = *scene.retractorPoint_lps_mm;
-    tools::BarPlace place{rest_lps_, scene.retractorAxis, scene.retractorDirection, scene.retractorDiameter_mm,
-                          scene.retractorLength_mm, scene.bar.has_value()};
+    tools::BarPlace place{rest_lps_,
+                          scene.retractorAxis,
+                          scene.retractorDirection,
+                          scene.retractorDiameter_mm,
+                          scene.retractorLength_mm,
+                          scene.bar.has_value()};
     if (scene.bar) place.line_lps = scene.bar->centreline_lps_mm;
     d_->bar.emplace(place);
     d_->atlasBar.emplace(place);

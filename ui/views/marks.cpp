@@ -60,12 +60,8 @@ void paintMarks(QPainter& painter, const std::vector<Mark>& marks, const Project
     QPainterPath shape;
     switch (mark.shape) {
       case Mark::Shape::Dot:
-      case Mark::Shape::Ring:
-        shape.addEllipse(*at, r, r);
-        break;
-      case Mark::Shape::Square:
-        shape.addRect(QRectF(at->x() - r, at->y() - r, 2 * r, 2 * r));
-        break;
+      case Mark::Shape::Ring: shape.addEllipse(*at, r, r); break;
+      case Mark::Shape::Square: shape.addRect(QRectF(at->x() - r, at->y() - r, 2 * r, 2 * r)); break;
       case Mark::Shape::Diamond:
         shape.addPolygon(QPolygonF({*at + QPointF(0, -1.3 * r), *at + QPointF(1.3 * r, 0), *at + QPointF(0, 1.3 * r),
                                     *at + QPointF(-1.3 * r, 0), *at + QPointF(0, -1.3 * r)}));

@@ -18,8 +18,8 @@
 #include <optional>
 
 #include "views/bar_actor.h"
-#include "views/mesh_data.h"
 #include "views/colour_map.h"
+#include "views/mesh_data.h"
 
 namespace glisson::views {
 

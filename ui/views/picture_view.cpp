@@ -87,24 +87,13 @@ void PictureView::wheelEvent(QWheelEvent* event) {
 void PictureView::keyPressEvent(QKeyEvent* event) {
   const QPointF middle(0.5 * width(), 0.5 * height());
   switch (image_.isNull() ? Qt::Key_unknown : static_cast<Qt::Key>(event->key())) {
-    case Qt::Key_Up:
-      emit sliceWanted(1);
-      return;
-    case Qt::Key_Down:
-      emit sliceWanted(-1);
-      return;
+    case Qt::Key_Up: emit sliceWanted(1); return;
+    case Qt::Key_Down: emit sliceWanted(-1); return;
     case Qt::Key_Plus:
-    case Qt::Key_Equal:
-      zoomAt(middle, 1.15);
-      return;
-    case Qt::Key_Minus:
-      zoomAt(middle, 1.0 / 1.15);
-      return;
-    case Qt::Key_Home:
-      fit();
-      return;
-    default:
-      QWidget::keyPressEvent(event);
+    case Qt::Key_Equal: zoomAt(middle, 1.15); return;
+    case Qt::Key_Minus: zoomAt(middle, 1.0 / 1.15); return;
+    case Qt::Key_Home: fit(); return;
+    default: QWidget::keyPressEvent(event);
   }
 }
 

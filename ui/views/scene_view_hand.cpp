@@ -86,8 +86,7 @@ void SceneView::mouseMoveEvent(QMouseEvent* event) {
         break;
       }
       break;
-    case Drag::None:
-      break;
+    case Drag::None: break;
   }
 }
 

@@ -15,16 +15,11 @@ constexpr double move_mm = 1.0, moveFar_mm = 10.0;
 /// Of an arrow key, to the right and down.
 std::optional<Eigen::Vector2d> directionOf(int key) {
   switch (key) {
-    case Qt::Key_Left:
-      return Eigen::Vector2d(-1.0, 0.0);
-    case Qt::Key_Right:
-      return Eigen::Vector2d(1.0, 0.0);
-    case Qt::Key_Up:
-      return Eigen::Vector2d(0.0, -1.0);
-    case Qt::Key_Down:
-      return Eigen::Vector2d(0.0, 1.0);
-    default:
-      return {};
+    case Qt::Key_Left: return Eigen::Vector2d(-1.0, 0.0);
+    case Qt::Key_Right: return Eigen::Vector2d(1.0, 0.0);
+    case Qt::Key_Up: return Eigen::Vector2d(0.0, -1.0);
+    case Qt::Key_Down: return Eigen::Vector2d(0.0, 1.0);
+    default: return {};
   }
 }
 
@@ -50,19 +45,14 @@ void SceneView::keyPressEvent(QKeyEvent* event) {
         camera_.zoom(event->key() == Qt::Key_Minus ? 1.0 / zoomStep : zoomStep, 0.5 * size_px(), size_px());
         moved();
         return;
-      case Qt::Key_Home:
-        showAll();
-        return;
-      case Qt::Key_Space:
-        chooseNext();
-        return;
+      case Qt::Key_Home: showAll(); return;
+      case Qt::Key_Space: chooseNext(); return;
       case Qt::Key_Return:
       case Qt::Key_Enter:
         if (!placing_) break;
         if (const auto at = surfaceUnder(QPointF(0.5 * width(), 0.5 * height()))) emit surfaceClicked(*at);
         return;
-      default:
-        break;
+      default: break;
     }
   }
   QWidget::keyPressEvent(event);

@@ -48,6 +48,7 @@ void SliceView::setVolume(ShownVolume volume) {
   if (!sameGrid) {
     slice_ = sliceCount() / 2;
     fit();
+    cutRegion();
   }
   stale_ = true;
   update();
@@ -67,6 +68,7 @@ void SliceView::setSlice(int slice) {
   emit sliceAboutToChange();
   slice_ = wanted;
   stale_ = true;
+  cutRegion();
   update();
   emit sliceChanged(slice_);
 }
@@ -184,7 +186,7 @@ void SliceView::mousePressEvent(QMouseEvent* event) {
   else if (event->button() == Qt::LeftButton && (alt || leftWindows_))
     volume_.stiffness ? emit windowRefused() : void(drag_ = Drag::Window);
   else if (event->button() == Qt::RightButton)
-    drag_ = Drag::Zoom;
+    drag_ = rightWindows_ && !volume_.stiffness ? Drag::Window : Drag::Zoom;
   else if (event->button() == Qt::LeftButton) {
     drag_ = Drag::Tool;
     emit toolPressed(pointerOf(*event));
@@ -208,6 +210,7 @@ void SliceView::mouseMoveEvent(QMouseEvent* event) {
       if (moved_) zoomAt(pressed_, std::exp(-step.y() * 0.01));
       break;
     case Drag::Window: {
+      if (!moved_ && event->buttons().testFlag(Qt::RightButton)) break;  // it may become a click
       // Right widens the window, up makes the picture brighter, relative to what is shown.
       const double width = volume_.high - volume_.low, level = 0.5 * (volume_.high + volume_.low);
       const double newWidth = width * std::exp(step.x() * 0.005);
@@ -217,9 +220,7 @@ void SliceView::mouseMoveEvent(QMouseEvent* event) {
       break;
     }
     case Drag::Tool:
-    case Drag::None:
-      emit toolMoved(pointerOf(*event));
-      break;
+    case Drag::None: emit toolMoved(pointerOf(*event)); break;
   }
   emit cursorMoved(plane().toLps({at.x(), at.y()}));
   update();
@@ -229,7 +230,8 @@ void SliceView::mouseReleaseEvent(QMouseEvent* event) {
   const Drag was = std::exchange(drag_, Drag::None);
   if (!hasVolume()) return;
   if (was == Drag::Tool) emit toolReleased(pointerOf(*event));
-  if (was == Drag::Zoom && !moved_) emit toolRightClicked(pointerOf(*event));
+  if (event->button() == Qt::RightButton && (was == Drag::Zoom || was == Drag::Window) && !moved_)
+    emit toolRightClicked(pointerOf(*event));
   update();
 }
 
@@ -242,13 +244,20 @@ void SliceView::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void SliceView::wheelEvent(QWheelEvent* event) {
-  if (!hasVolume() || event->angleDelta().y() == 0) return;
-  const bool up = event->angleDelta().y() > 0;
-  if (event->modifiers().testFlag(Qt::ControlModifier))
-    zoomAt(event->position(), up ? 1.15 : 1.0 / 1.15);
-  else
-    setSlice(slice_ + (up ? 1 : -1));
+  const int turned = event->angleDelta().y();
+  if (!hasVolume() || turned == 0) return;
+  constexpr int notch = QWheelEvent::DefaultDeltasPerStep;
   event->accept();
+  if (event->modifiers().testFlag(Qt::ControlModifier)) {
+    zoomAt(event->position(), std::pow(1.15, static_cast<double>(turned) / notch));
+    return;
+  }
+  // A touchpad turns by little at a time: a slice for each whole notch, and nothing is kept when it turns round.
+  if ((turned > 0) != (wheel_ > 0)) wheel_ = 0;
+  wheel_ += turned;
+  const int slices = wheel_ / notch;
+  wheel_ -= slices * notch;
+  if (slices != 0) setSlice(slice_ + slices);
 }
 
 void SliceView::keyPressEvent(QKeyEvent* event) {

@@ -12,6 +12,7 @@
 #include "roi/contour_stack.h"
 #include "tools/measure_tool.h"
 #include "tools/polygon_tool.h"
+#include "tools/region_cut.h"
 #include "tools/slice_plane.h"
 #include "views/marks.h"
 
@@ -28,6 +29,14 @@ struct ShownVolume {
   QString title;                                          ///< "MRI", "MRE stiffness": never patient text
   QString unit;                                           ///< of the value under the cursor
   std::vector<std::string> sopInstanceUids;               ///< per slice; may be empty
+};
+
+/// A stiffness map laid over a slice in its colours, by position in the patient: on any grid.
+struct Fusion {
+  std::shared_ptr<const image::ScalarVolume> values;  ///< kPa; what is not above 0 is left out; null: nothing is laid
+  double high_kPa = 8.0;                              ///< end of the colour scale, which begins at 0
+  double opacity = 0.0;                               ///< 0 ... 1
+  bool operator==(const Fusion&) const = default;
 };
 
 /// One slice of a volume with contours, cursor and readouts. Wheel: slice; Ctrl+wheel or right drag: zoom; middle drag
@@ -52,6 +61,11 @@ class SliceView : public QWidget {
   void setSecondReader(const roi::ContourStack* contours) { second_ = contours, update(); }
   /// Border of an inner region, on the grid of the volume; else it is not drawn.
   void setInner(std::shared_ptr<const image::Mask> inner) { inner_ = std::move(inner), update(); }
+  void setFusion(const Fusion& fusion);
+  const Fusion& fusion() const { return fusion_; }
+  /// A region on any grid, of which the cut with the slice is shown: what counts, in planes across those drawn on.
+  void setRegion(std::shared_ptr<const image::Mask> region);
+  const std::vector<tools::BorderEdge>& regionCut() const { return cut_; }
   void setNote(const QString& note);  ///< a few words under the slice number: a mark of the slice
   /// Places that lie on the slice shown, or nearly; whoever sets them handles the tool's signals.
   void setMarks(std::vector<Mark> marks) { marks_ = std::move(marks), update(); }
@@ -60,6 +74,8 @@ class SliceView : public QWidget {
   void setOverlaysHidden(bool hidden) { hidden_ = hidden, update(); }
   /// The left button changes the window instead of going to the tool.
   void setLeftDragWindows(bool on) { leftWindows_ = on; }
+  /// The right button changes the window instead of zooming (not of stiffness). A right click stays one.
+  void setRightDragWindows(bool on) { rightWindows_ = on; }
 
   int slice() const { return slice_; }
   int sliceCount() const { return volume_.values ? volume_.values->grid.size.z() : 0; }
@@ -81,6 +97,8 @@ class SliceView : public QWidget {
   tools::SlicePlane plane() const;
   /// Value of the voxel under a point, where it lies in the volume.
   std::optional<double> valueAt(const Eigen::Vector3d& p_lps) const;
+  /// The same of the map that is laid over it, where one is seen; kPa.
+  std::optional<double> fusedAt(const Eigen::Vector3d& p_lps) const;
 
  signals:
   void sliceAboutToChange();
@@ -127,8 +145,13 @@ class SliceView : public QWidget {
   void paintScaleBar(QPainter& painter) const;
   QRectF imageArea() const;
   void judgeCrossings();
+  void fuse();
+  void cutRegion();
 
   ShownVolume volume_;
+  Fusion fusion_;
+  std::shared_ptr<const image::Mask> region_;
+  std::vector<tools::BorderEdge> cut_;  ///< of the region with the slice shown
   const roi::ContourStack* contours_ = nullptr;
   const tools::PolygonTool* tool_ = nullptr;
   int slice_ = 0;
@@ -148,7 +171,8 @@ class SliceView : public QWidget {
   bool stale_ = true;
   Drag drag_ = Drag::None;
   QPointF pressed_, last_;
-  bool moved_ = false, space_ = false, hidden_ = false, leftWindows_ = false, byKeys_ = false;
+  bool moved_ = false, space_ = false, hidden_ = false, leftWindows_ = false, rightWindows_ = false, byKeys_ = false;
+  int wheel_ = 0;  ///< of fine wheels and touchpads: what no whole step has been made of yet, in eighths of a degree
   /// Of each outline as it was when it was last judged.
   struct Judged {
     Eigen::Matrix3Xd points_lps_mm;

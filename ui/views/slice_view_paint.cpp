@@ -105,6 +105,7 @@ void SliceView::renderSlice() {
       line[i] = colours[static_cast<std::size_t>(std::isfinite(level) ? std::clamp(level, 0.0, 255.0) : 0.0)];
     }
   }
+  fuse();
   hatch_ = QImage();
   if (!volume_.confidence || !volume_.confidence->grid.sameGeometry(grid)) return;
   hatch_ = QImage(nx * hatchScale, ny * hatchScale, QImage::Format_ARGB32_Premultiplied);
@@ -148,8 +149,12 @@ void SliceView::renderBackdrop() {
 }
 
 void SliceView::paintContours(QPainter& painter) const {
-  if (!contours_ || hidden_) return;
+  if (hidden_) return;
   const tools::SlicePlane shown = plane();
+  if (!contours_) {
+    paintExtras(painter, shown);
+    return;
+  }
   // Thick slices hold several drawn planes: where nothing is edited only those nearest to the middle are shown.
   const auto offPlane_mm = [&shown](const roi::Polygon& polygon) {
     const Eigen::Vector3d index = shown.grid.lpsToIndex(polygon.points_lps_mm.rowwise().mean());
@@ -228,6 +233,10 @@ void SliceView::paintExtras(QPainter& painter, const tools::SlicePlane& shown) c
         if (in(i, j) != in(i, j - 1)) lines.add({{here, corner(i + 0.5, j - 0.5)}}, false, ink, 1.2);
       }
   }
+  const auto seen = [&](const Eigen::Vector2d& pixel) {
+    return point(shown.toPixel(shown.grid.indexToLps({pixel.x(), pixel.y(), 1.0 * slice_})));
+  };
+  for (const tools::BorderEdge& edge : cut_) lines.add({{seen(edge.from), seen(edge.to)}}, false, acceptedColour, 1.5);
   lines.paint(painter);
   if (measurements_) {
     const auto draw = [&](const tools::Distance& d) {
@@ -344,12 +353,12 @@ void SliceView::paintLabels(QPainter& painter) const {
   textWithHalo(painter, {14.0, 43.0}, where, faint);
   if (!note_.isEmpty()) textWithHalo(painter, {14.0, 62.0}, note_, excludedColour);
   if (cursor_) {
-    const std::optional<double> value = valueAt(*cursor_);
-    if (value)
-      textWithHalo(painter, {14.0, height() - 16.0},
-                   QString::number(*value, 'f', volume_.stiffness || volume_.high - volume_.low < 20.0 ? 2 : 0) +
-                       QLatin1Char(' ') + volume_.unit,
-                   ink);
+    QStringList values;
+    if (const std::optional<double> value = valueAt(*cursor_))
+      values << QString::number(*value, 'f', volume_.stiffness || volume_.high - volume_.low < 20.0 ? 2 : 0) +
+                    QLatin1Char(' ') + volume_.unit;
+    if (const std::optional<double> laid = fusedAt(*cursor_)) values << QString::number(*laid, 'f', 2) + tr(" kPa");
+    if (!values.isEmpty()) textWithHalo(painter, {14.0, height() - 16.0}, values.join(QStringLiteral("   ")), ink);
   }
 }
 

@@ -28,24 +28,15 @@ inline bool strong(Tie tie) {
 
 inline std::string words(Tie tie) {
   switch (tie) {
-    case Tie::Series:
-      return "one series";
-    case Tie::References:
-      return "references of the images";
-    case Tie::Uid:
-      return "acquisition UID";
-    case Tie::SeriesNumbers:
-      return "series numbers";
-    case Tie::Number:
-      return "acquisition number";
-    case Tie::Frame:
-      return "frame of reference";
-    case Tie::Time:
-      return "acquisition time";
-    case Tie::Geometry:
-      return "geometry";
-    default:
-      return "order of series numbers";
+    case Tie::Series: return "one series";
+    case Tie::References: return "references of the images";
+    case Tie::Uid: return "acquisition UID";
+    case Tie::SeriesNumbers: return "series numbers";
+    case Tie::Number: return "acquisition number";
+    case Tie::Frame: return "frame of reference";
+    case Tie::Time: return "acquisition time";
+    case Tie::Geometry: return "geometry";
+    default: return "order of series numbers";
   }
 }
 
@@ -93,23 +84,16 @@ class Evidence {
         return stem(x) == stem(y) && compared(x.acquired.number, y.acquired.number) != Verdict::Other
                    ? Verdict::Same
                    : Verdict::Unknown;
-      case Tie::References:
-        return byReferences(a, b);
-      case Tie::Uid:
-        return compared(x.acquired.uid, y.acquired.uid);
-      case Tie::SeriesNumbers:
-        return bySeriesNumbers(x, y);
-      case Tie::Number:
-        return compared(x.acquired.number, y.acquired.number);
-      case Tie::Frame:
-        return compared(x.frameOfReferenceUid, y.frameOfReferenceUid);
+      case Tie::References: return byReferences(a, b);
+      case Tie::Uid: return compared(x.acquired.uid, y.acquired.uid);
+      case Tie::SeriesNumbers: return bySeriesNumbers(x, y);
+      case Tie::Number: return compared(x.acquired.number, y.acquired.number);
+      case Tie::Frame: return compared(x.frameOfReferenceUid, y.frameOfReferenceUid);
       case Tie::Time:
         if (!x.acquired.time_s || !y.acquired.time_s) return Verdict::Unknown;
         return apart_s(a, b) < 1.0 ? Verdict::Same : Verdict::Other;
-      case Tie::Geometry:
-        return x.grid.sameGeometry(y.grid) ? Verdict::Same : Verdict::Other;
-      default:
-        return run(a) == run(b) ? Verdict::Same : Verdict::Other;
+      case Tie::Geometry: return x.grid.sameGeometry(y.grid) ? Verdict::Same : Verdict::Other;
+      default: return run(a) == run(b) ? Verdict::Same : Verdict::Other;
     }
   }
 

@@ -106,8 +106,8 @@ bool isUnit(const Eigen::Vector3d& v) {
 }
 
 void check(const ImageHeader& h, std::uint64_t fileBytes) {
-  bool sound = isUid(h.seriesUid) && !h.seriesUid.empty() && isUid(h.sopInstanceUid) && (h.patientKey.empty() || h.patientKey.size() == 64) &&
-               h.studyDate.size() <= 16;
+  bool sound = isUid(h.seriesUid) && !h.seriesUid.empty() && isUid(h.sopInstanceUid) &&
+               (h.patientKey.empty() || h.patientKey.size() == 64) && h.studyDate.size() <= 16;
   sound = sound && h.rows > 0 && h.rows <= 65535 && h.columns > 0 && h.columns <= 65535;
   sound = sound && (h.samples == 1 || h.samples == 3) && h.bitsStored > 0 && h.bitsStored <= h.bitsAllocated;
   const bool bits = h.kind == PixelKind::Integer

@@ -167,7 +167,8 @@ SegHeader segHeaderFrom(const std::string& message) {
   }
   const auto isUnit = [](const Eigen::Vector3d& v) { return std::abs(v.norm() - 1.0) < 1e-3; };
   bool sound = h.rows > 0 && h.rows <= 65535 && h.columns > 0 && h.columns <= 65535;
-  sound = sound && (h.labelMap ? h.bits == 8 || h.bits == 16 : h.bits == (h.fractional ? 8 : 1)) && h.maximum > 0 && h.maximum <= 255;
+  sound = sound && (h.labelMap ? h.bits == 8 || h.bits == 16 : h.bits == (h.fractional ? 8 : 1)) && h.maximum > 0 &&
+          h.maximum <= 255;
   sound = sound && isUnit(h.row) && isUnit(h.column) && std::abs(h.row.dot(h.column)) < 1e-6;
   sound = sound && h.rowSpacing_mm > 0.0 && h.columnSpacing_mm > 0.0 && !h.frames.empty();
   if (!sound) WireReader::fail();

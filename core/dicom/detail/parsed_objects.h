@@ -33,7 +33,7 @@ struct SegHeader {
   int rows = 0, columns = 0, bits = 1;
   bool fractional = false;
   bool labelMap = false;  ///< pixels hold segment numbers, 0 for none; frames name no segment
-  int maximum = 1;  ///< of a fractional frame
+  int maximum = 1;        ///< of a fractional frame
   Eigen::Vector3d row = Eigen::Vector3d::UnitX(), column = Eigen::Vector3d::UnitY();
   double rowSpacing_mm = 1.0, columnSpacing_mm = 1.0;
   std::optional<double> sliceSpacing_mm, thickness_mm;

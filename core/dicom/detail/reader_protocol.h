@@ -20,7 +20,7 @@ enum class Ask : std::uint32_t {
 };
 
 enum class Answer : std::uint32_t {
-  Refused = 1,  ///< reason, series UID
+  Refused = 1,  ///< reason, series UID, whether memory was short
   Header,
   Pixels,
   List,

@@ -5,8 +5,8 @@
 namespace glisson::inversion::detail {
 
 /// Voxels where some offset was cut off at an end of the stored range (phases unwrapped before they were stored); empty
-/// where the series is not clipped. It is where more than one in a thousand of the voxels that move stay at the same end
-/// from one offset to the next: phases that wrap, and noise, do not rest at the very end of the scale.
+/// where the series is not clipped. It is where more than one in a thousand of the voxels that move stay at the same
+/// end from one offset to the next: phases that wrap, and noise, do not rest at the very end of the scale.
 image::Mask clippedVoxels(const PhaseOffsets& direction);
 
 /// The first harmonic of clipped voxels, from the offsets that were not cut off: least squares for a constant and one

@@ -10,6 +10,17 @@
 
 namespace glisson::inversion::detail {
 
+/// body(voxel) for every voxel of the mask, row by row on several threads.
+inline void forEachVoxel(const image::Mask& mask, const Progress& progress,
+                         const std::function<void(std::size_t)>& body) {
+  const auto row = static_cast<std::size_t>(mask.grid.size.x());
+  parallelChunks(mask.values.size(), 8 * row, [&](std::size_t begin, std::size_t end) {
+    progress.check();
+    for (std::size_t v = begin; v < end; ++v)
+      if (mask.values[v] != 0) body(v);
+  });
+}
+
 /// The taps of a stencil as steps in linear index, for voxels whose window lies wholly inside a mask.
 class Window {
  public:
@@ -41,16 +52,6 @@ class Window {
           }
     });
     return result;
-  }
-
-  /// body(voxel) for every voxel of the mask, row by row on several threads.
-  void forEach(const image::Mask& mask, const Progress& progress, const std::function<void(std::size_t)>& body) const {
-    const auto row = static_cast<std::size_t>(grid_.size.x());
-    parallelChunks(mask.values.size(), 8 * row, [&](std::size_t begin, std::size_t end) {
-      progress.check();
-      for (std::size_t v = begin; v < end; ++v)
-        if (mask.values[v] != 0) body(v);
-    });
   }
 
  private:

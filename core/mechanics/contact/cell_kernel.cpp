@@ -53,9 +53,9 @@ GLISSON_INLINE double forcesOf(const CellModes& modes, const CellRow<double, dou
     if constexpr (law == SolidLaw::Linear) {
       // Only what is linear in d of g − e, and the trace.
       const V pressure = (lambda + mu) * trace;
-      const Triple<double, Bytes> e[6] = {{d[2].z + d[1].y, -d[1].x, -d[2].x},        {-d[0].y, d[0].x + d[2].z, -d[2].y},
-                              {-d[0].z, -d[1].z, d[1].y + d[0].x},        {d[4].z, d[5].z, -d[4].x - d[5].y},
-                              {-d[3].z - d[5].y, d[5].x, d[3].x},         {d[4].y, -d[4].x - d[3].z, d[3].y}};
+      const Triple<double, Bytes> e[6] = {{d[2].z + d[1].y, -d[1].x, -d[2].x}, {-d[0].y, d[0].x + d[2].z, -d[2].y},
+                                          {-d[0].z, -d[1].z, d[1].y + d[0].x}, {d[4].z, d[5].z, -d[4].x - d[5].y},
+                                          {-d[3].z - d[5].y, d[5].x, d[3].x},  {d[4].y, -d[4].x - d[3].z, d[3].y}};
 #pragma GCC unroll 6
       for (int m = 0; m < 6; ++m) s[m] = mu * (V(modes.w[static_cast<std::size_t>(m)] + V{}) * d[m] - e[m]);
       s[0].x += pressure;
@@ -77,8 +77,7 @@ GLISSON_INLINE double forcesOf(const CellModes& modes, const CellRow<double, dou
       volumeLaw<law, Bytes>(j, mu, lambda, rise, second, volume);
       total += mu * (0.5 * square - higher) + volume;
 #pragma GCC unroll 6
-      for (int m = 0; m < 6; ++m)
-        s[m] = (mu * modes.w[static_cast<std::size_t>(m)]) * d[m] + (rise - mu) * q[m];
+      for (int m = 0; m < 6; ++m) s[m] = (mu * modes.w[static_cast<std::size_t>(m)]) * d[m] + (rise - mu) * q[m];
       s[0].x += rise;
       s[1].y += rise;
       s[2].z += rise;
@@ -170,7 +169,9 @@ GLISSON_INLINE void tangentOf(const CellModes& modes, const CellRow<float, float
   constexpr std::size_t lanes = static_cast<std::size_t>(Bytes) / sizeof(float);
   V carry[4][3] = {};
   for (std::size_t i = 0; i < row.n; i += lanes) {
-    const auto at = [&](std::size_t array) __attribute__((always_inline)) { return *reinterpret_cast<const V*>(state + TangentArrays::at(array, i)); };
+    const auto at = [&](std::size_t array) __attribute__((always_inline)) {
+      return *reinterpret_cast<const V*>(state + TangentArrays::at(array, i));
+    };
     Triple<float, Bytes> d[7], c[6], g[6], s[7];
     loadModes(modes, row, i, d);
     loadState(state, i, c);
@@ -205,7 +206,9 @@ GLISSON_INLINE void diagonalOf(const CellModes& modes, float* const out[4], std:
   for (std::size_t m = 0; m < 7; ++m) even += static_cast<float>(modes.w[m] * modes.alpha[m] * modes.alpha[m]);
   V carry[4][6] = {};
   for (std::size_t i = 0; i < n; i += lanes) {
-    const auto at = [&](std::size_t array) __attribute__((always_inline)) { return *reinterpret_cast<const V*>(state + TangentArrays::at(array, i)); };
+    const auto at = [&](std::size_t array) __attribute__((always_inline)) {
+      return *reinterpret_cast<const V*>(state + TangentArrays::at(array, i));
+    };
     Triple<float, Bytes> c[6], g[6];
     loadState(state, i, c);
     gradients(c, g);
@@ -288,26 +291,27 @@ struct Table {
   double (*smallest)(const CellModes&, const CellRow<double, double>&, const double*, double);
 };
 
-#define GLISSON_KERNELS(name, bytes, attribute)                                                                        \
-  attribute double forces##name(SolidLaw law, const CellModes& modes, const CellRow<double, double>& row,              \
-                                const double* mu, const double* lambda, bool& good) {                                  \
-    return Kernels<bytes>::forces(law, modes, row, mu, lambda, good);                                                  \
-  }                                                                                                                    \
-  attribute void linearise##name(SolidLaw law, const CellModes& modes, const CellRow<double, double>& row,             \
-                                 const double* mu, const double* lambda, float* state) {           \
-    Kernels<bytes>::linearise(law, modes, row, mu, lambda, state);                                             \
-  }                                                                                                                    \
-  attribute void tangent##name(const CellModes& modes, const CellRow<float, float>& row, const float* state, std::size_t pressure) {                                             \
-    tangentOf<bytes>(modes, row, state, pressure);                                                             \
-  }                                                                                                                    \
-  attribute void diagonal##name(const CellModes& modes, float* const out[4], std::size_t nodes, std::size_t n,         \
-                                const float* state) {                                              \
-    diagonalOf<bytes>(modes, out, nodes, n, state);                                                            \
-  }                                                                                                                    \
-  attribute double smallest##name(const CellModes& modes, const CellRow<double, double>& row, const double* mu,        \
-                                  double start) {                                                                      \
-    return smallestOf<bytes>(modes, row, mu, start);                                                                   \
-  }                                                                                                                    \
+#define GLISSON_KERNELS(name, bytes, attribute)                                                                 \
+  attribute double forces##name(SolidLaw law, const CellModes& modes, const CellRow<double, double>& row,       \
+                                const double* mu, const double* lambda, bool& good) {                           \
+    return Kernels<bytes>::forces(law, modes, row, mu, lambda, good);                                           \
+  }                                                                                                             \
+  attribute void linearise##name(SolidLaw law, const CellModes& modes, const CellRow<double, double>& row,      \
+                                 const double* mu, const double* lambda, float* state) {                        \
+    Kernels<bytes>::linearise(law, modes, row, mu, lambda, state);                                              \
+  }                                                                                                             \
+  attribute void tangent##name(const CellModes& modes, const CellRow<float, float>& row, const float* state,    \
+                               std::size_t pressure) {                                                          \
+    tangentOf<bytes>(modes, row, state, pressure);                                                              \
+  }                                                                                                             \
+  attribute void diagonal##name(const CellModes& modes, float* const out[4], std::size_t nodes, std::size_t n,  \
+                                const float* state) {                                                           \
+    diagonalOf<bytes>(modes, out, nodes, n, state);                                                             \
+  }                                                                                                             \
+  attribute double smallest##name(const CellModes& modes, const CellRow<double, double>& row, const double* mu, \
+                                  double start) {                                                               \
+    return smallestOf<bytes>(modes, row, mu, start);                                                            \
+  }                                                                                                             \
   constexpr Table table##name = {&forces##name, &linearise##name, &tangent##name, &diagonal##name, &smallest##name};
 
 GLISSON_KERNELS(Portable, 16, )
@@ -320,12 +324,9 @@ const Table& fastest() {
   static const Table& table = [&]() -> const Table& {
 #if defined(__x86_64__)
     switch (instructionSet()) {
-      case InstructionSet::Avx512:
-        return tableAvx512;
-      case InstructionSet::Avx2:
-        return tableAvx2;
-      default:
-        break;
+      case InstructionSet::Avx512: return tableAvx512;
+      case InstructionSet::Avx2: return tableAvx2;
+      default: break;
     }
 #endif
     return tablePortable;
@@ -364,12 +365,12 @@ void lineariseCells(SolidLaw law, const CellModes& modes, const CellRow<double, 
   fastest().linearise(law, modes, row, mu, lambda, state);
 }
 
-void addCellTangent(const CellModes& modes, const CellRow<float, float>& row, const float* state,
-                    bool positive) {
+void addCellTangent(const CellModes& modes, const CellRow<float, float>& row, const float* state, bool positive) {
   fastest().tangent(modes, row, state, positive ? TangentArrays::positive : TangentArrays::p);
 }
 
-void addCellDiagonal(const CellModes& modes, float* const out[4], std::size_t nodes, std::size_t n, const float* state) {
+void addCellDiagonal(const CellModes& modes, float* const out[4], std::size_t nodes, std::size_t n,
+                     const float* state) {
   fastest().diagonal(modes, out, nodes, n, state);
 }
 

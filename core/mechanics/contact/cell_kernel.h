@@ -56,8 +56,8 @@ void lineariseCells(SolidLaw law, const CellModes& modes, const CellRow<double, 
 /// [c1 c2 c3] (or a bound of it from above).
 void addCellTangent(const CellModes& modes, const CellRow<float, float>& row, const float* state, bool positive);
 
-/// Adds the 3 × 3 diagonal blocks of the tangent to six arrays (xx xy xz yy yz zz) of `nodes` values each: out[r] points
-/// to the row's first node in the first array. p has no part in them.
+/// Adds the 3 × 3 diagonal blocks of the tangent to six arrays (xx xy xz yy yz zz) of `nodes` values each: out[r]
+/// points to the row's first node in the first array. p has no part in them.
 void addCellDiagonal(const CellModes& modes, float* const out[4], std::size_t nodes, std::size_t n, const float* state);
 
 /// Smallest mean det F over the filled cells of a row, starting from `smallest`.

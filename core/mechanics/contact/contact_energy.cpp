@@ -35,7 +35,8 @@ ContactEnergy::ContactEnergy(const SolidHierarchy& hierarchy, std::vector<Surfac
       bed_(problem.bed),
       tethers_(problem.tethers),
       pressures_(problem.pressures),
-      law_(problem.law), bar_(problem.bar) {
+      law_(problem.law),
+      bar_(problem.bar) {
   barrier_.width_m = bar_ ? std::min(options.zone_m, widestOfRadius * bar_->radius_m) : options.zone_m;
   barrier_.kappa_Pa_m = perModulus_1_m * meanModulus(problem.problem.body) * 1e-3 / barrier_.width_m;
   if (!pressures_.empty())
@@ -45,7 +46,7 @@ ContactEnergy::ContactEnergy(const SolidHierarchy& hierarchy, std::vector<Surfac
   std::vector<Eigen::Vector3d> atRest;
   for (const SurfaceSample& s : surface_) atRest.push_back(s.p_m);
   bringToForce(atRest);
-  findNeighbours();
+  sortIntoCubes();
 }
 
 void ContactEnergy::setLoads(std::size_t top, const std::vector<double>& loads) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "mechanics/contact/barrier.h"
@@ -43,6 +45,8 @@ class ContactEnergy {
   bool passes(const State& from, const State& to) const;
   /// True if the bar lies between neighbouring samples of the surface, which have been drawn apart: it has cut into it.
   bool cuts(const State& at) const;
+  /// True where a sample lies so deep in the bar that the barrier no longer keeps it out.
+  bool deep(const State& at) const;
   std::vector<PointStiffness> stiffness(const State& at) const;
   std::vector<FollowerStiffness> followers(const State& at) const;
   /// Share of the loads that follow their faces; 1 at first.
@@ -78,8 +82,10 @@ class ContactEnergy {
   void forTriangles(const State& at, const F& f) const;
   /// The bar is brought from behind to where the barrier begins: there its travel is 0.
   void bringToForce(const std::vector<Eigen::Vector3d>& places_m);
-  /// The samples around each on the surface at rest, that look the same way.
-  void findNeighbours();
+  /// Sorts the samples at rest into cubes as wide as a neighbourhood.
+  void sortIntoCubes();
+  /// The samples around one on the surface at rest, that look the same way.
+  const std::vector<std::uint32_t>& neighboursOf(std::uint32_t sample) const;
   /// The samples that can be in contact in this state: all others are out of the barrier's zone.
   const std::vector<std::uint32_t>& near(const State& at) const;
   /// How far samples and bar can have moved towards each other since `near_` was chosen, from above; m.
@@ -87,10 +93,14 @@ class ContactEnergy {
 
   const SolidHierarchy& hierarchy_;
   std::vector<SurfaceSample> surface_;
-  std::vector<std::vector<std::uint32_t>> neighbours_;  ///< of each sample on the surface, where there is a bar
-  std::vector<BedSample> bed_;            ///< points behind those of the surface
-  std::vector<Tether> tethers_;           ///< points behind those of the bed
-  std::vector<FollowerFace> pressures_;   ///< four points each behind those of the tethers
+  /// The samples in a cube of the body at rest, where there is a bar; by cube.
+  std::vector<std::pair<std::array<int, 3>, std::uint32_t>> cubes_;
+  double neighbourhood_m_ = 0;
+  /// Of each sample once it is asked for: few ever come near the bar. Empty until then.
+  mutable std::vector<std::optional<std::vector<std::uint32_t>>> neighbours_;
+  std::vector<BedSample> bed_;           ///< points behind those of the surface
+  std::vector<Tether> tethers_;          ///< points behind those of the bed
+  std::vector<FollowerFace> pressures_;  ///< four points each behind those of the tethers
   std::optional<PressurePotential> potential_;
   double pressureShare_ = 1;
   SolidLaw law_;

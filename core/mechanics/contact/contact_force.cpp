@@ -9,7 +9,7 @@ namespace {
 using State = ContactSolver::State;
 
 constexpr int meetingTries = 40;  ///< travels tried for one force
-constexpr double snap = 0.01;      ///< of the force, by which it jumps where the body snaps
+constexpr double snap = 0.01;     ///< of the force, by which it jumps where the body snaps
 
 struct Meeting {
   /// An equilibrium on one side of the force.
@@ -94,7 +94,7 @@ struct Meeting {
     const double off_N = solver.barForce(state) - goal_N;
     // Past the goal a state is loosely converged only: what is borne is known below it.
     if (off_N < 0 && off_N + goal_N > best_N) best_N = off_N + goal_N, bestAt_m = state.s;
-    solver.met(off_N + goal_N);
+    solver.met(off_N + goal_N, state.s);
     if (tight && std::abs(off_N) <= tolerance * goal_N) return true;
     if (!tight && (off_N < 0 ? above : below)) {
       tight = true;
@@ -106,8 +106,9 @@ struct Meeting {
     }
     (off_N < 0 ? below : above) = Side{state, off_N};
     if (below && above) return between(tries);
-    if (below && (off_N + goal_N < ContactSolver::slipFall * best_N || state.s > bestAt_m + ContactSolver::slipTravel_m))
-      return solver.slips(best_N);
+    if (below &&
+        (off_N + goal_N < ContactSolver::slipFall * best_N || state.s > bestAt_m + ContactSolver::slipTravel_m))
+      return solver.slips(best_N, bestAt_m);
     trial = state;
     trial.s += below ? step : -step;
     step = std::min(1.3 * step, ContactSolver::longestStep_m);

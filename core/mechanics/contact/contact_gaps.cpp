@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -17,6 +16,12 @@ constexpr double reach_m = 0.02;  ///< samples within this of the bar are looked
 constexpr double neighbourhood = 2.0;
 /// Depth of the surface between two neighbouring samples, in radii of the bar, from where the bar has cut into it.
 constexpr double cutOfRadius = 0.5;
+constexpr double deepOfGuard = 0.9;  ///< where steps end that would go deeper
+
+std::array<int, 3> cubeOf(const Eigen::Vector3d& p_m, double edge_m) {
+  const Eigen::Vector3i c = (p_m / edge_m).array().floor().cast<int>();
+  return {c.x(), c.y(), c.z()};
+}
 
 }  // namespace
 
@@ -94,27 +99,35 @@ const std::vector<std::uint32_t>& ContactEnergy::near(const State& at) const {
   return near_.samples;
 }
 
-void ContactEnergy::findNeighbours() {
+void ContactEnergy::sortIntoCubes() {
   double area = 0;
   for (const SurfaceSample& s : surface_) area += s.area_m2;
-  const double reach = neighbourhood * std::sqrt(area / static_cast<double>(std::max<std::size_t>(1, surface_.size())));
-  const auto cubeOf = [&](const Eigen::Vector3d& p) { return Eigen::Vector3i((p / reach).array().floor().cast<int>()); };
-  std::map<std::array<int, 3>, std::vector<std::uint32_t>> cubes;
-  for (std::size_t p = 0; p < surface_.size(); ++p) {
-    const Eigen::Vector3i c = cubeOf(surface_[p].p_m);
-    cubes[{c.x(), c.y(), c.z()}].push_back(static_cast<std::uint32_t>(p));
-  }
+  const auto count = static_cast<double>(std::max<std::size_t>(1, surface_.size()));
+  neighbourhood_m_ = neighbourhood * std::sqrt(area / count);
+  cubes_.reserve(surface_.size());
+  for (std::size_t p = 0; p < surface_.size(); ++p)
+    cubes_.emplace_back(cubeOf(surface_[p].p_m, neighbourhood_m_), static_cast<std::uint32_t>(p));
+  std::sort(cubes_.begin(), cubes_.end());
   neighbours_.assign(surface_.size(), {});
-  for (std::size_t p = 0; p < surface_.size(); ++p) {
-    const Eigen::Vector3i c = cubeOf(surface_[p].p_m);
-    for (int n = 0; n < 27; ++n) {
-      const auto cube = cubes.find({c.x() + n % 3 - 1, c.y() + n / 3 % 3 - 1, c.z() + n / 9 - 1});
-      if (cube == cubes.end()) continue;
-      for (const std::uint32_t q : cube->second)
-        if (q != p && (surface_[q].p_m - surface_[p].p_m).norm() < reach && surface_[q].normal.dot(surface_[p].normal) > 0)
-          neighbours_[p].push_back(q);
+}
+
+const std::vector<std::uint32_t>& ContactEnergy::neighboursOf(std::uint32_t sample) const {
+  std::optional<std::vector<std::uint32_t>>& found = neighbours_[sample];
+  if (found) return *found;
+  found.emplace();
+  const SurfaceSample& own = surface_[sample];
+  const std::array<int, 3> at = cubeOf(own.p_m, neighbourhood_m_);
+  for (int n = 0; n < 27; ++n) {
+    const std::array<int, 3> cube = {at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1};
+    auto entry = std::lower_bound(cubes_.begin(), cubes_.end(), std::pair(cube, std::uint32_t{0}));
+    for (; entry != cubes_.end() && entry->first == cube; ++entry) {
+      const SurfaceSample& other = surface_[entry->second];
+      if (entry->second != sample && (other.p_m - own.p_m).norm() < neighbourhood_m_ &&
+          other.normal.dot(own.normal) > 0)
+        found->push_back(entry->second);
     }
   }
+  return *found;
 }
 
 bool ContactEnergy::passes(const State& from, const State& to) const {
@@ -142,15 +155,24 @@ bool ContactEnergy::passes(const State& from, const State& to) const {
   return std::none_of(bad.begin(), bad.end(), [](char c) { return c != 0; });
 }
 
+bool ContactEnergy::deep(const State& at) const {
+  if (!bar_) return false;
+  const std::vector<std::uint32_t>& samples = near(at);
+  return std::any_of(samples.begin(), samples.end(), [&](std::uint32_t p) {
+    return gapTo(*bar_, place(p, at), at.s).g_m < -deepOfGuard * barrier_.guard_m;
+  });
+}
+
 bool ContactEnergy::cuts(const State& at) const {
   if (!bar_) return false;
   const double part_m = cutOfRadius * bar_->radius_m;
   const std::vector<std::uint32_t>& samples = near(at);
+  for (const std::uint32_t p : samples) neighboursOf(p);
   std::vector<char> cut((samples.size() + chunk - 1) / chunk, 0);
   parallelChunks(samples.size(), chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3d a = place(samples[i], at);
-      for (const std::uint32_t other : neighbours_[samples[i]]) {
+      for (const std::uint32_t other : *neighbours_[samples[i]]) {
         const Eigen::Vector3d way = place(other, at) - a;
         const int parts = static_cast<int>(std::ceil(way.norm() / part_m));
         for (int part = 1; part < parts; ++part)

@@ -17,7 +17,7 @@ constexpr std::array<double, 2> leap_m = {3e-3, 6e-3};
 constexpr double base_m = 2e-3;  ///< of travel, that a leap is predicted from
 constexpr int closer = 8;        ///< parts of the two steps beside the largest force
 constexpr double closeTolerance = 1e-4;
-constexpr double fallen = 0.98;     ///< of the largest force, where no step is possible: the bar slips
+constexpr double fallen = 0.98;  ///< of the largest force, where no step is possible: the bar slips
 
 struct Path {
   ContactSolver& solver;
@@ -71,7 +71,10 @@ struct Path {
     ContactSolution& out = solver.out();
     out.outcome = outcome;
     // What finer cells bear counts, if they do not bear what was asked for.
-    out.capacity_N = first || outcome == ContactOutcome::Reached ? std::max(out.capacity_N, best_N) : best_N;
+    if (best_N > out.capacity_N || (!first && outcome != ContactOutcome::Reached)) {
+      out.capacity_N = best_N;
+      out.capacity_m = bestAt_m;
+    }
     out.capacityExceeded = exceeded;
     return outcome == ContactOutcome::Reached;
   }
@@ -134,10 +137,8 @@ struct Path {
     if (leaps > 0) step = ContactSolver::firstStep_m;
     leaps = 0;
     ContactSolution& out = solver.out();
-    if (first)
-      out.path.push_back({state.s, force_N});
-    else
-      solver.met(force_N);
+    if (first) out.path.push_back({state.s, force_N});
+    solver.met(force_N, state.s);
     ++steps;
     out.largestDrop_N = std::max(out.largestDrop_N, last_N - force_N);
     last_N = force_N;

@@ -57,7 +57,8 @@ Eigen::Vector3i nearestCell(const VoxelMesh& mesh, const Eigen::Vector3d& p_m) {
   double nearest = std::numeric_limits<double>::infinity();
   for (int c = 0; c < mesh.cellCount(); ++c) {
     const Eigen::Vector3i at = mesh.cellOf(c);
-    const double d = ((at.cast<double>() + Eigen::Vector3d::Constant(0.5)).cwiseProduct(mesh.h_m()) - p_m).squaredNorm();
+    const double d =
+        ((at.cast<double>() + Eigen::Vector3d::Constant(0.5)).cwiseProduct(mesh.h_m()) - p_m).squaredNorm();
     if (d < nearest) nearest = d, best = at;
   }
   return best;
@@ -153,18 +154,15 @@ std::vector<std::vector<double>> loadsOnLevels(const SolidHierarchy& hierarchy, 
   loads.emplace_back(3 * finest.nodes(), 0.0);
   for (int node = 0; node < mesh.nodeCount(); ++node) {
     const std::size_t slot = slotOf(finest, mesh, node);
-    for (std::size_t c = 0; c < 3; ++c)
-      loads[0][c * finest.nodes() + slot] = f(static_cast<Eigen::Index>(c), node);
+    for (std::size_t c = 0; c < 3; ++c) loads[0][c * finest.nodes() + slot] = f(static_cast<Eigen::Index>(c), node);
   }
   for (std::size_t l = 0; l + 1 < hierarchy.levels(); ++l) {
     const SolidLevel& fine = hierarchy.level(l);
     const SolidLevel& coarse = hierarchy.level(l + 1);
     std::vector<double> next(3 * coarse.nodes(), 0.0);
-    forParentsOfNodes(*fine.lattice, *coarse.lattice, fine.halved,
-                      [&](std::size_t slot, std::size_t parent, double w) {
-                        for (std::size_t c = 0; c < 3; ++c)
-                          next[c * coarse.nodes() + parent] += w * loads[l][c * fine.nodes() + slot];
-                      });
+    forParentsOfNodes(*fine.lattice, *coarse.lattice, fine.halved, [&](std::size_t slot, std::size_t parent, double w) {
+      for (std::size_t c = 0; c < 3; ++c) next[c * coarse.nodes() + parent] += w * loads[l][c * fine.nodes() + slot];
+    });
     loads.push_back(std::move(next));
   }
   return loads;
@@ -192,8 +190,8 @@ std::vector<double> prescribedOnFinest(const SolidLevel& level, const ContactPro
 
 namespace {
 
-void describeContact(const ContactEnergy& energy, const std::vector<std::size_t>& kept,
-                     const ContactEnergy::State& at, std::size_t samples, ContactSolution& out) {
+void describeContact(const ContactEnergy& energy, const std::vector<std::size_t>& kept, const ContactEnergy::State& at,
+                     std::size_t samples, ContactSolution& out) {
   out.pressure_Pa.assign(samples, 0.0);
   out.surface_u_m = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(samples));
   const Eigen::Vector3d centre =

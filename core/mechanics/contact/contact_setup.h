@@ -15,9 +15,9 @@ std::optional<Eigen::Vector3i> carrierCell(const VoxelMesh& mesh, const Eigen::V
 /// The nearest filled cell, however far.
 Eigen::Vector3i nearestCell(const VoxelMesh& mesh, const Eigen::Vector3d& p_m);
 
-/// A skin of this stiffness (N/m, Young's modulus times thickness) as a layer of this depth below the surface: a further
-/// modulus of the cells that it passes through, Pa per cell. It stiffens them in all directions; its depth is its own and
-/// not that of the cells, so that finer cells show the same body.
+/// A skin of this stiffness (N/m, Young's modulus times thickness) as a layer of this depth below the surface: a
+/// further modulus of the cells that it passes through, Pa per cell. It stiffens them in all directions; its depth is
+/// its own and not that of the cells, so that finer cells show the same body.
 std::vector<double> rindOf(const VoxelBody& body, const std::vector<SurfaceSample>& surface, double stiffness_N_m,
                            double depth_m);
 
@@ -33,8 +33,8 @@ std::vector<SurfaceSample> carriedSurface(SolidHierarchy& hierarchy, const Conta
 /// Dead loads (3 nodes, N) per level; a coarse level's do the same work on its displacements.
 std::vector<std::vector<double>> loadsOnLevels(const SolidHierarchy& hierarchy, const ContactProblem& problem);
 
-/// The coarsest level whose cells can still follow the bar: a path is followed there. The finest where displacements are
-/// prescribed.
+/// The coarsest level whose cells can still follow the bar: a path is followed there. The finest where displacements
+/// are prescribed.
 std::size_t pathLevel(const SolidHierarchy& hierarchy, const ContactProblem& problem);
 
 /// Prescribed displacements at the clamps of the finest level, 0 elsewhere, m.

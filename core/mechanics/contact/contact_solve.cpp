@@ -12,18 +12,22 @@
 namespace glisson::mechanics {
 namespace {
 
-constexpr int mostOnFinest = 500;        ///< iterations there, once the path is done
+constexpr int mostOnFinest = 500;  ///< iterations there, once the path is done
 
 /// A bed holds a body that lies on it, and tethers one that hangs on them, for the question whether anything holds it.
 void requireHeld(const ContactProblem& problem) {
   const VoxelMesh mesh(problem.problem.body);
   Supports supports = problem.problem.supports;
-  const auto hold = [&](const Eigen::Vector3d& p_m, double k_N_m) {
+  const auto hold = [&](const Eigen::Vector3d& p_m, const Eigen::Matrix3d& k_N_m) {
     if (const auto cell = carrierCell(mesh, p_m))
-      supports.springs.push_back({mesh.nodeAt(cell->x(), cell->y(), cell->z()), k_N_m * Eigen::Matrix3d::Identity()});
+      supports.springs.push_back({mesh.nodeAt(cell->x(), cell->y(), cell->z()), k_N_m});
   };
-  for (const BedSample& b : problem.bed) hold(b.p_m, b.k_N_m);
-  for (const Tether& t : problem.tethers) hold(t.p_m, t.k_N_m);
+  const Eigen::Matrix3d every = Eigen::Matrix3d::Identity();
+  for (const BedSample& b : problem.bed) {
+    const Eigen::Matrix3d along = b.outward * b.outward.transpose();
+    hold(b.p_m, b.k_N_m * along + b.tangential_N_m * (every - along));
+  }
+  for (const Tether& t : problem.tethers) hold(t.p_m, t.k_N_m * every);
   requireSupported(mesh, supports);
 }
 
@@ -45,17 +49,16 @@ bool resists(const ContactProblem& problem, const Eigen::Vector3d& d) {
                        return along > least || b.tangential_N_m * (1 - along * along) > least * least * b.k_N_m;
                      }) ||
          // A tether that is stretched turns into the way of any motion but one towards its anchor.
-         std::any_of(problem.tethers.begin(), problem.tethers.end(), [&](const Tether& t) {
-           return t.twoSided || d.dot((t.p_m - t.anchor_m).normalized()) > -least;
-         });
+         std::any_of(problem.tethers.begin(), problem.tethers.end(),
+                     [&](const Tether& t) { return t.twoSided || d.dot((t.p_m - t.anchor_m).normalized()) > -least; });
 }
 
 /// A bar that hoists a body off everything that only presses meets no resistance.
 void requireResistance(const ContactProblem& problem) {
   if (problem.bar && !resists(problem, problem.bar->hoist))
     throw BadInput(
-        "nothing resists the bar: along its hoist the body lifts off supports that only press (\"unilateral\"); add "
-        "ligaments or springs that pull as well, or hoist the other way");
+        "nothing resists the bar: along its hoist the body moves away from supports that act one way only (springs "
+        "that only press, ligaments); add supports that act against the hoist, or hoist the other way");
 }
 
 }  // namespace
@@ -66,19 +69,34 @@ ContactSolver::ContactSolver(const ContactProblem& problem, const ContactOptions
       progress_(progress),
       hierarchy_(finestLevel(problem)),
       energy_(hierarchy_, carriedSurface(hierarchy_, problem, kept_), problem, options),
-      loads_(loadsOnLevels(hierarchy_, problem)) {}
+      loads_(loadsOnLevels(hierarchy_, problem)),
+      met_(hierarchy_.levels()) {}
 
 NewtonRun ContactSolver::converge(State& state, std::optional<double> force_N, double tolerance, int limit) {
   const bool finest = energy_.top() == 0;
   if (finest && energy_.top() < pathLevel(hierarchy_, problem_) && spent_ > mostOnFinest) return {};
+  const double start_m = state.s;
   NewtonRun run = minimise(hierarchy_, energy_, state, {force_N, tolerance, limit}, progress_);
   out_.newton += run.iterations;
   if (finest) spent_ += run.iterations;
   out_.inner += run.inner;
   lastResidual_ = run.residual;
-  if (run.converged) cuts_ = energy_.cuts(state);
+  if (run.converged)
+    cuts_ = energy_.cuts(state);
+  else if (run.iterations > 0 && problem_.bar)
+    lostTo_ = lostFrom(start_m, state, force_N.has_value());
   run.converged = run.converged && !cuts_;
   return run;
+}
+
+/// What a state that is no equilibrium shows of where the body was going, with the bar at `travel_m` at first: the bar
+/// through the surface, cells inside out, off the bar; or nothing (Stopped).
+ContactOutcome ContactSolver::lostFrom(double travel_m, const State& state, bool travels) const {
+  if (energy_.cuts(state) || energy_.deep(state)) return ContactOutcome::Cuts;
+  if (hierarchy_.level(energy_.top()).smallestVolumeRatio(state.u.data()) <= 0) return ContactOutcome::Folds;
+  const bool away =
+      travels ? state.s > travel_m + slipTravel_m : barForce(state) < slipFall * met_[energy_.top()].force_N;
+  return away ? ContactOutcome::Slips : ContactOutcome::Stopped;
 }
 
 void ContactSolver::endTrailAt(double travel_m) {
@@ -91,13 +109,10 @@ double ContactSolver::barForce(const State& state) const {
   return value.barForce_N;
 }
 
-void ContactSolver::met(double force_N) {
-  if (energy_.top() == 0) metOnFinest_ = std::max(metOnFinest_, force_N);
-}
-
-bool ContactSolver::slips(double capacity_N) {
+bool ContactSolver::slips(double capacity_N, double travel_m) {
   out_.outcome = ContactOutcome::Slips;
   out_.capacity_N = capacity_N;
+  out_.capacity_m = travel_m;
   out_.capacityExceeded = true;
   return false;
 }
@@ -229,11 +244,20 @@ ContactSolution ContactSolver::solve() {
     useLevel(l);
   }
   describe(hierarchy_, energy_, problem_, kept_, state, out_);
-  if (out_.outcome == ContactOutcome::Stopped && problem_.bar && out_.smallestJ <= 0) {
-    out_.outcome = ContactOutcome::Folds;
-    if (problem_.force_N && metOnFinest_ < *problem_.force_N) out_.capacity_N = metOnFinest_;
+  if (!good && out_.outcome == ContactOutcome::Reached) out_.outcome = ContactOutcome::Stopped;
+  if (out_.outcome == ContactOutcome::Stopped && problem_.bar) {
+    // The state that is told stands; what is said of it is what the body did beyond it.
+    const bool through = cuts_ || energy_.deep(state);
+    out_.outcome = out_.smallestJ <= 0 ? ContactOutcome::Folds : through ? ContactOutcome::Cuts : lostTo_;
+    // States of the path are loose: no more is said to be borne than the state that is told bears.
+    if (out_.outcome != ContactOutcome::Stopped && problem_.force_N && met_[0].force_N > 0) {
+      const double told_N = out_.force_N.dot(out_.bar.hoist);
+      const bool least = told_N < met_[0].force_N;
+      out_.capacity_N = least ? told_N : met_[0].force_N;
+      out_.capacity_m = least ? out_.travel_m : met_[0].travel_m;
+    }
+    out_.capacityExceeded = out_.capacityExceeded || out_.outcome != ContactOutcome::Stopped;
   }
-  if (out_.outcome == ContactOutcome::Stopped && cuts_) out_.outcome = ContactOutcome::Cuts;
   SolveReport& report = out_.solution.report;
   report.kind = energy_.hasPotential() ? "newton-multigrid-pcg" : "newton-multigrid-gmres";
   report.status = good ? SolveStatus::Converged : SolveStatus::StoppedAtLimit;

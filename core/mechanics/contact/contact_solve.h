@@ -59,23 +59,23 @@ struct ContactProblem {
   std::vector<FollowerFace> pressures;  ///< that follow their faces
   std::vector<BedSample> bed;
   std::vector<Tether> tethers;
-  std::optional<RigidBar> bar;       ///< from anywhere behind its first touch; travel counts from the first force
-  std::optional<double> force_N;     ///< on the bar along its hoist; or
-  std::optional<double> travel_m;    ///< of the bar
+  std::optional<RigidBar> bar;     ///< from anywhere behind its first touch; travel counts from the first force
+  std::optional<double> force_N;   ///< on the bar along its hoist; or
+  std::optional<double> travel_m;  ///< of the bar
 };
 
 struct ContactOptions {
   double tolerance = 1e-6;  ///< on ‖gradient‖ / load
-  double zone_m = 1e-3;     ///< width of the barrier, a fifth of the bar's radius at most; half of it lies inside the body
-  double proof = 1.0;       ///< the path is followed to this multiple of the force before the answer is given
-  bool pathOnly = false;    ///< stop on the cells that the path is followed on
+  double zone_m = 1e-3;  ///< width of the barrier, a fifth of the bar's radius at most; half of it lies inside the body
+  double proof = 1.0;    ///< the path is followed to this multiple of the force before the answer is given
+  bool pathOnly = false;  ///< stop on the cells that the path is followed on
 };
 
 enum class ContactOutcome {
-  Reached,        ///< the force or the travel asked for
-  Slips,          ///< the force falls with travel below what was asked for: no equilibrium beyond capacity_N
-  Folds,          ///< the surface beside the bar folds, cells turn inside out: beyond capacity_N nothing is known
-  Cuts,           ///< the bar has drawn the surface apart and cut into it: the cells are too coarse, or the force too large
+  Reached,  ///< the force or the travel asked for
+  Slips,    ///< the force falls with travel below what was asked for: no equilibrium beyond capacity_N
+  Folds,    ///< the surface beside the bar folds, cells turn inside out: beyond capacity_N nothing is known
+  Cuts,     ///< the bar has drawn the surface apart and cut into it: the cells are too coarse, or the force too large
   LoadsNotBorne,  ///< no equilibrium under the loads, with the bar where it touches
   Stopped         ///< no convergence, no reason found
 };
@@ -87,35 +87,37 @@ struct PathStep {
 struct ContactSolution {
   Solution solution;  ///< of the last equilibrium reached; energy_J: of body, capsule, springs, bed and tethers
   ContactOutcome outcome = ContactOutcome::Stopped;
-  /// Of the bar from its first force on the body as the other loads leave it: half the barrier's width before they touch.
+  /// Of the bar from its first force on the body as the other loads leave it: half the barrier's width before they
+  /// touch.
   double travel_m = 0;
-  double touch_m = 0;                   ///< that half
-  double capacity_N = 0;                ///< largest force met on the path
-  bool capacityExceeded = false;        ///< the force fell after it
-  std::vector<PathStep> path;           ///< on the path's cells, then the answer
-  double largestDrop_N = 0;             ///< of the force from one step to the next
-  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();     ///< of the bar on the body
-  Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();   ///< about the bar's centre
+  double touch_m = 0;                                   ///< that half
+  double capacity_N = 0;                                ///< largest force met on the path
+  double capacity_m = 0;                                ///< travel at which it was met, on the cells that it was met on
+  bool capacityExceeded = false;                        ///< the force fell after it, or nothing was found beyond it
+  std::vector<PathStep> path;                           ///< on the path's cells, then the answer
+  double largestDrop_N = 0;                             ///< of the force from one step to the next
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();    ///< of the bar on the body
+  Eigen::Vector3d moment_Nm = Eigen::Vector3d::Zero();  ///< about the bar's centre
   double area_m2 = 0, footprint_m2 = 0;  ///< of the surface in contact, deformed: as it is, and seen along the hoist
   double pressureMax_Pa = 0, penetrationMax_m = 0;
-  std::vector<double> pressure_Pa;       ///< per surface sample
-  Eigen::Matrix3Xd surface_u_m;          ///< displacement of each surface sample
+  std::vector<double> pressure_Pa;                        ///< per surface sample
+  Eigen::Matrix3Xd surface_u_m;                           ///< displacement of each surface sample
   Eigen::Vector3d following_N = Eigen::Vector3d::Zero();  ///< sum of the loads that follow their faces, as they end
   std::vector<Eigen::Vector3d> tether_N;                  ///< of each tether on the body
   double smallestJ = 1;
-  int newton = 0, inner = 0;             ///< iterations, path included
-  RigidBar bar;                          ///< its centre line at travel 0
+  int newton = 0, inner = 0;  ///< iterations, path included
+  RigidBar bar;               ///< its centre line at travel 0
 };
 
 /// Equilibrium of a hyperelastic body held by springs and clamps and pushed by a rigid, frictionless bar, by Newton's
-/// method on the potential energy: exact tangent, conjugate gradients with a multigrid rebuilt at each step, line search
-/// on the energy. Contact is a logarithmic barrier in the gap of each surface sample, whose exact second derivative is
-/// used. The bar is first moved step by step on coarse cells, until the force or the travel is reached or the force
-/// falls; then the end of that path is converged on the body's own cells. Without a bar the loads are applied in full, in
-/// smaller steps where that fails. Loads that follow their faces and have no potential make the tangent unsymmetric: then
-/// GMRES takes the place of conjugate gradients, and the work along a step that of the energy. The same bits with any
-/// number of threads.
-/// Throws BadInput (no sample of the surface can be met by the bar; a body that nothing holds), Cancelled.
+/// method on the potential energy: exact tangent, conjugate gradients with a multigrid rebuilt at each step, line
+/// search on the energy. Contact is a logarithmic barrier in the gap of each surface sample, whose exact second
+/// derivative is used. The bar is first moved step by step on coarse cells, until the force or the travel is reached or
+/// the force falls; then the end of that path is converged on the body's own cells. Without a bar the loads are applied
+/// in full, in smaller steps where that fails. Loads that follow their faces and have no potential make the tangent
+/// unsymmetric: then GMRES takes the place of conjugate gradients, and the work along a step that of the energy. The
+/// same bits with any number of threads. Throws BadInput (no sample of the surface can be met by the bar; a body that
+/// nothing holds), Cancelled.
 ContactSolution solveContact(const ContactProblem& problem, const ContactOptions& options = {},
                              const Progress& progress = {});
 

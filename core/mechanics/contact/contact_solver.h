@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -32,18 +33,22 @@ class ContactSolver {
   double barForce(const State& state) const;
   /// The state is the last but one of the path.
   void leaveBehind(const State& state) { trail_.push_back(state); }
-  /// A force that an equilibrium bore on the present cells.
-  void met(double force_N);
+  /// A force that an equilibrium bore on the present cells, and the travel there.
+  void met(double force_N, double travel_m) {
+    Met& m = met_[energy_.top()];
+    if (force_N > m.force_N) m = {force_N, travel_m};
+  }
   /// Whether the last state that was found was refused, as the bar cut into the surface there.
   bool cuts() const { return cuts_; }
   const std::vector<State>& trail() const { return trail_; }
   /// The path has turned out to end here: states further on are not behind it.
   void endTrailAt(double travel_m);
   /// Notes what the place bears at most; false.
-  bool slips(double capacity_N);
+  bool slips(double capacity_N, double travel_m);
 
  private:
   void useLevel(std::size_t l) { energy_.setLoads(l, loads_[l]); }
+  ContactOutcome lostFrom(double travel_m, const State& state, bool travels) const;
   bool moveBar(State& state);
   bool meetForceFromTrail(State& state, double tolerance, NewtonRun& run);
   bool followAgain(State& state, double tolerance, NewtonRun& run);
@@ -58,11 +63,15 @@ class ContactSolver {
   ContactEnergy energy_;
   ContactSolution out_;
   std::vector<std::vector<double>> loads_;  ///< per level
-  double metOnFinest_ = 0;                  ///< largest force that an equilibrium on the finest cells bore
-  bool cuts_ = false;                       ///< the last state that was found
-  int spent_ = 0;                           ///< iterations on the finest cells
-  double lastResidual_ = 0;                 ///< of the last equilibrium tried
-  std::vector<State> trail_;                ///< of the path up to its end, of the level that is worked on
+  struct Met {
+    double force_N = 0, travel_m = 0;
+  };
+  std::vector<Met> met_;                             ///< largest force that an equilibrium bore, per level
+  bool cuts_ = false;                                ///< the last state that was found
+  ContactOutcome lostTo_ = ContactOutcome::Stopped;  ///< what the last run without an equilibrium was on its way to
+  int spent_ = 0;                                    ///< iterations on the finest cells
+  double lastResidual_ = 0;                          ///< of the last equilibrium tried
+  std::vector<State> trail_;                         ///< of the path up to its end, of the level that is worked on
 };
 
 enum class PathKind {
@@ -70,13 +79,13 @@ enum class PathKind {
   Again   ///< on finer ones, which bore less
 };
 
-/// Travel in steps from `state` until force or travel is reached (true), or the force falls or no step is possible. Writes
-/// outcome and capacity of solver.out(), and its path where this is the first time.
+/// Travel in steps from `state` until force or travel is reached (true), or the force falls or no step is possible.
+/// Writes outcome and capacity of solver.out(), and its path where this is the first time.
 bool followPath(ContactSolver& solver, ContactSolver::State& state, PathKind kind);
 
-/// The travel at which the bar bears the force, with the travel prescribed: that stays well posed where the force hardly
-/// rises any more, and where it falls. False where no step is possible or the force has fallen for good (only then
-/// solver.out() says that the bar slips).
+/// The travel at which the bar bears the force, with the travel prescribed: that stays well posed where the force
+/// hardly rises any more, and where it falls. False where no step is possible or the force has fallen for good (only
+/// then solver.out() says that the bar slips).
 bool meetForce(ContactSolver& solver, ContactSolver::State& state, double tolerance, NewtonRun& run);
 
 }  // namespace glisson::mechanics

@@ -107,7 +107,8 @@ void ContactTracker::Parts::settle() {
   double largest = 0;
   const std::size_t n = level().nodes();
   for (std::size_t i = 0; i < n; ++i)
-    largest = std::max(largest, std::pow(correction[i], 2) + std::pow(correction[n + i], 2) + std::pow(correction[2 * n + i], 2));
+    largest = std::max(
+        largest, std::pow(correction[i], 2) + std::pow(correction[n + i], 2) + std::pow(correction[2 * n + i], 2));
   told.remaining_m = std::sqrt(largest);
 }
 
@@ -158,10 +159,18 @@ const TrackedState& ContactTracker::moveTowards(const Eigen::Vector3d& target_m)
   return p.told;
 }
 
-const TrackedState& ContactTracker::state() const { return parts_->told; }
-const RigidBar& ContactTracker::bar() const { return parts_->rest; }
-int ContactTracker::dofs() const { return parts_->dofs; }
-double ContactTracker::cell_m() const { return parts_->level().moduli.h_m.maxCoeff(); }
+const TrackedState& ContactTracker::state() const {
+  return parts_->told;
+}
+const RigidBar& ContactTracker::bar() const {
+  return parts_->rest;
+}
+int ContactTracker::dofs() const {
+  return parts_->dofs;
+}
+double ContactTracker::cell_m() const {
+  return parts_->level().moduli.h_m.maxCoeff();
+}
 
 void ContactTracker::displacements(Eigen::Matrix3Xd& u_m) const {
   const Parts& p = *parts_;

@@ -36,7 +36,8 @@ Eigen::Matrix3d crossed(const Eigen::Vector3d& d) {
 using Corner = std::array<int, 3>;
 
 /// Edges of faces, and by how much the pressures on both sides differ, Pa.
-std::map<std::pair<Corner, Corner>, double> pressureSteps(const VoxelMesh& mesh, const std::vector<FollowerFace>& faces) {
+std::map<std::pair<Corner, Corner>, double> pressureSteps(const VoxelMesh& mesh,
+                                                          const std::vector<FollowerFace>& faces) {
   const auto cornerAt = [&](const Eigen::Vector3d& p_m) {
     const Eigen::Vector3i i = p_m.cwiseQuotient(mesh.h_m()).array().round().cast<int>();
     return Corner{i.x(), i.y(), i.z()};

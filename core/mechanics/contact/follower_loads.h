@@ -19,8 +19,8 @@ struct PressurePotential {
   Eigen::Vector3d apex_m = Eigen::Vector3d::Zero();
 };
 
-/// Nothing where the loads have no potential: shears, or a rim (an edge on which the pressures of the faces do not cancel)
-/// that may move other than along planes of the grid's axes.
+/// Nothing where the loads have no potential: shears, or a rim (an edge on which the pressures of the faces do not
+/// cancel) that may move other than along planes of the grid's axes.
 std::optional<PressurePotential> potentialOf(const VoxelMesh& mesh, const std::vector<FollowerFace>& faces,
                                              const std::vector<Fixation>& fixations);
 

@@ -10,9 +10,9 @@ namespace glisson::mechanics {
 namespace {
 
 struct PlaneStress {
-  double energy = 0;                                  ///< per area, N/m
-  Eigen::Vector3d stress = Eigen::Vector3d::Zero();   ///< 11 22 12, N/m
-  Eigen::Matrix3d moduli = Eigen::Matrix3d::Zero();   ///< for strains 11 22 2·12
+  double energy = 0;                                 ///< per area, N/m
+  Eigen::Vector3d stress = Eigen::Vector3d::Zero();  ///< 11 22 12, N/m
+  Eigen::Matrix3d moduli = Eigen::Matrix3d::Zero();  ///< for strains 11 22 2·12
 };
 
 /// In-plane stress of a skin of Green's strain e (11 22 12).
@@ -86,8 +86,7 @@ Membrane::Membrane(const RowLattice& lattice, const Eigen::Vector3d& h_m, const 
     for (int r = 0; r < 4; ++r)
       patch.slot[static_cast<std::size_t>(r)] =
           static_cast<std::uint32_t>(lattice.slot(cell.x(), cell.y() + (r & 1), cell.z() + (r >> 1)));
-    for (int t = 0; t < 2; ++t)
-      patch.slope[static_cast<std::size_t>(t)] = slopesAlong(xi, h_m, patch.tangent.col(t));
+    for (int t = 0; t < 2; ++t) patch.slope[static_cast<std::size_t>(t)] = slopesAlong(xi, h_m, patch.tangent.col(t));
     patches_.push_back(patch);
   }
 }

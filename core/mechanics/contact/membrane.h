@@ -31,7 +31,8 @@ class Membrane {
  public:
   Membrane() = default;
   /// Samples outside their cell count at the nearest place inside.
-  Membrane(const RowLattice& lattice, const Eigen::Vector3d& h_m, const std::vector<SkinSample>& samples, const Skin& skin);
+  Membrane(const RowLattice& lattice, const Eigen::Vector3d& h_m, const std::vector<SkinSample>& samples,
+           const Skin& skin);
 
   /// Energy (J) at displacements u (three arrays of `nodes` values, m); the forces (N) are added to gradient.
   double addForces(const double* u, std::size_t nodes, double* gradient) const;
@@ -43,9 +44,9 @@ class Membrane {
 
  private:
   struct Patch {
-    std::array<std::uint32_t, 4> slot{};             ///< first of two nodes along x, as CarriedPoint has them
-    std::array<std::array<float, 8>, 2> slope{};     ///< derivative of each node's share along the tangents, 1/m
-    Eigen::Matrix<double, 3, 2> tangent;             ///< at rest, orthonormal
+    std::array<std::uint32_t, 4> slot{};          ///< first of two nodes along x, as CarriedPoint has them
+    std::array<std::array<float, 8>, 2> slope{};  ///< derivative of each node's share along the tangents, 1/m
+    Eigen::Matrix<double, 3, 2> tangent;          ///< at rest, orthonormal
     double area_m2 = 0;
   };
   /// Times the patch's area: stress (11 22 12) and moduli (symmetric, of 11 22 12 and strains 11 22 2·12), N m.

@@ -12,7 +12,7 @@ constexpr int unsymmetricLimit = 120;
 constexpr int mostUnsolved = 4;  ///< unsymmetric steps in turn that GMRES does not find: near a limit of the load
 constexpr double armijo = 1e-4;
 constexpr int halvings = 12;
-constexpr double deeperOf = 0.25;  ///< of the barrier's width: what a step may lead a sample deeper beyond it
+constexpr double deeperOf = 0.25;    ///< of the barrier's width: what a step may lead a sample deeper beyond it
 constexpr double atRounding = 1e-7;  ///< residual that counts as converged where no step helps
 
 double normOf(const std::vector<double>& v) {
@@ -44,10 +44,9 @@ struct Minimiser {
     std::vector<double> b(now.gradient.size());
     for (std::size_t i = 0; i < b.size(); ++i) b[i] = -now.gradient[i];
     const bool symmetric = positive || energy.hasPotential();
-    const TangentSolve solve = symmetric
-                                   ? hierarchy.solve(energy.top(), b, step, forcing, goal.innerLimit, positive)
-                                   : hierarchy.solveUnsymmetric(energy.top(), b, step, forcing,
-                                                                std::min(goal.innerLimit, unsymmetricLimit));
+    const TangentSolve solve = symmetric ? hierarchy.solve(energy.top(), b, step, forcing, goal.innerLimit, positive)
+                                         : hierarchy.solveUnsymmetric(energy.top(), b, step, forcing,
+                                                                      std::min(goal.innerLimit, unsymmetricLimit));
     run.inner += solve.iterations;
     if (!symmetric) unsolved = solve.outcome == TangentOutcome::Limit ? unsolved + 1 : 0;
     if (!positive) run.indefinite = solve.outcome == TangentOutcome::Indefinite;
@@ -69,13 +68,13 @@ struct Minimiser {
       for (std::size_t d = 0; d < trial.u.size(); ++d) trial.u[d] += scale * step[d];
       trial.s += scale * step.back();
       if (!energy.evaluate(trial, goal.force_N, travels, next)) continue;
-      // Once on the wrong side of the bar a sample does not find back: steps end in the barrier's zone, or little deeper
-      // than they began.
+      // Once on the wrong side of the bar a sample does not find back: steps end in the barrier's zone, or little
+      // deeper than they began.
       const double zone_m = energy.barrier().width_m;
       if (next.deepest_m > std::max(zone_m, now.deepest_m + deeperOf * zone_m)) continue;
       // Where loads have no potential, what the unbalanced forces do on the way stands for its fall.
-      const double fall = energy.hasPotential() ? now.potential - next.potential
-                                                : -0.5 * scale * (slope + dotOf(next.gradient, step));
+      const double fall =
+          energy.hasPotential() ? now.potential - next.potential : -0.5 * scale * (slope + dotOf(next.gradient, step));
       const bool rounding = std::abs(fall) <= 1e-11 * (std::abs(now.potential) + std::abs(next.potential));
       if (!(fall >= -armijo * scale * slope) && !(rounding && normOf(next.gradient) < size)) continue;
       if (!energy.passes(state, trial)) continue;

@@ -22,10 +22,11 @@ struct NewtonRun {
   double residual = 0;  ///< ‖gradient‖ / load at the end
 };
 
-/// Minimises the potential on its level from `state`. Steps are limited to 10 mm, follow the exact tangent (its positive
-/// part where that gives no descent), and are halved until the potential falls and no sample of the surface passes
-/// through the bar. At rounding a smaller gradient is accepted instead. Without a potential (ContactEnergy::hasPotential)
-/// steps are those of the unsymmetric tangent, and the work of the unbalanced forces along them stands for its fall.
+/// Minimises the potential on its level from `state`. Steps are limited to 10 mm, follow the exact tangent (its
+/// positive part where that gives no descent), and are halved until the potential falls and no sample of the surface
+/// passes through the bar. At rounding a smaller gradient is accepted instead. Without a potential
+/// (ContactEnergy::hasPotential) steps are those of the unsymmetric tangent, and the work of the unbalanced forces
+/// along them stands for its fall.
 NewtonRun minimise(SolidHierarchy& hierarchy, const ContactEnergy& energy, ContactEnergy::State& state,
                    const NewtonGoal& goal, const Progress& progress);
 

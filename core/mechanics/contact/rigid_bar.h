@@ -18,10 +18,11 @@ struct Arc {
 };
 
 /// A rigid round bar: all points within `radius_m` of a centre line, its ends round. The centre line is an arc, or of
-/// straight segments with round joints. It travels along `hoist` without turning. Grid axes, metres; places are those at
-/// travel 0.
+/// straight segments with round joints. It travels along `hoist` without turning. Grid axes, metres; places are those
+/// at travel 0.
 struct RigidBar {
-  std::vector<Eigen::Vector3d> centreline_m;  ///< at least two points; one segment makes a capsule; of an arc: to draw it
+  std::vector<Eigen::Vector3d>
+      centreline_m;  ///< at least two points; one segment makes a capsule; of an arc: to draw it
   double radius_m = 0.005;
   Eigen::Vector3d hoist{0, -1, 0};  ///< unit
   std::optional<Arc> arc = std::nullopt;
@@ -32,11 +33,11 @@ struct RigidBar {
 
 /// Signed distance of a point from the bar and its derivatives: ∇g = n, ∇∇g = (I − n nᵀ − t tᵀ)/ρ + bend t tᵀ.
 struct Gap {
-  double g_m = 0;                                   ///< negative inside
-  double rho_m = 0;                                 ///< distance from the centre line
-  Eigen::Vector3d n = Eigen::Vector3d::Zero();      ///< unit, away from the bar
-  Eigen::Vector3d t = Eigen::Vector3d::Zero();      ///< unit along the centre line; 0 where an end or joint is nearest
-  double bend_1_m = 0;                              ///< curvature along t: 0 beside a straight bar
+  double g_m = 0;                               ///< negative inside
+  double rho_m = 0;                             ///< distance from the centre line
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();  ///< unit, away from the bar
+  Eigen::Vector3d t = Eigen::Vector3d::Zero();  ///< unit along the centre line; 0 where an end or joint is nearest
+  double bend_1_m = 0;                          ///< curvature along t: 0 beside a straight bar
 
   Eigen::Matrix3d curvature() const {
     const Eigen::Matrix3d tt = t * t.transpose();
@@ -48,8 +49,8 @@ struct Gap {
 Gap gapTo(const RigidBar& bar, const Eigen::Vector3d& p_m, double s_m);
 
 /// The bar of a curved blade, in place of a straight one of the same length and centre: an arc of the given opening
-/// angle in the plane of `axis` and `across`, bulging along `across`. The points of its centre line are those of sixteen
-/// chords.
+/// angle in the plane of `axis` and `across`, bulging along `across`. The points of its centre line are those of
+/// sixteen chords.
 RigidBar hook(const Eigen::Vector3d& centre_m, const Eigen::Vector3d& axis, const Eigen::Vector3d& across,
               double length_m, double angle_rad);
 

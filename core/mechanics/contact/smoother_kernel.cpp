@@ -9,7 +9,9 @@ namespace {
 template <class V, bool first>
 GLISSON_INLINE void stepAt(const SmootherFields& f, std::size_t i, float keep, float gain, bool fromZero) {
   const std::size_t n = f.nodes;
-  const auto at = [](auto* p) -> auto& { return *reinterpret_cast<V*>(const_cast<float*>(p)); };
+  const auto at = [](auto* p) -> auto& {
+    return *reinterpret_cast<V*>(const_cast<float*>(p));
+  };
   V r[3];
 #pragma GCC unroll 3
   for (std::size_t c = 0; c < 3; ++c) {
@@ -34,14 +36,13 @@ GLISSON_INLINE void stepsOf(const SmootherFields& f, std::size_t begin, std::siz
                             bool fromZero) {
   constexpr std::size_t lanes = static_cast<std::size_t>(Bytes) / sizeof(float);
   std::size_t i = begin;
-  for (; i + lanes <= end; i += lanes)
-    stepAt<typename VectorOf<float, Bytes>::type, first>(f, i, keep, gain, fromZero);
+  for (; i + lanes <= end; i += lanes) stepAt<typename VectorOf<float, Bytes>::type, first>(f, i, keep, gain, fromZero);
   for (; i < end; ++i) stepAt<float, first>(f, i, keep, gain, fromZero);
 }
 
 using Steps = void (*)(const SmootherFields&, std::size_t, std::size_t, float, float, bool, bool);
 
-#define GLISSON_SMOOTHER(name, bytes, attribute)                                                                   \
+#define GLISSON_SMOOTHER(name, bytes, attribute)                                                                  \
   attribute void steps##name(const SmootherFields& f, std::size_t begin, std::size_t end, float keep, float gain, \
                              bool first, bool fromZero) {                                                         \
     if (first)                                                                                                    \
@@ -59,12 +60,9 @@ GLISSON_SMOOTHER(Avx512, 64, __attribute__((target("arch=x86-64-v4,prefer-vector
 Steps fastest() {
 #if defined(__x86_64__)
   switch (instructionSet()) {
-    case InstructionSet::Avx512:
-      return &stepsAvx512;
-    case InstructionSet::Avx2:
-      return &stepsAvx2;
-    default:
-      break;
+    case InstructionSet::Avx512: return &stepsAvx512;
+    case InstructionSet::Avx2: return &stepsAvx2;
+    default: break;
   }
 #endif
   return &stepsPortable;

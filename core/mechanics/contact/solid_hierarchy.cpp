@@ -46,7 +46,8 @@ SolidHierarchy::SolidHierarchy(SolidLevel finest) {
   coarsestDofs_.push_back(3 * last.nodes());
 }
 
-void SolidHierarchy::setPoints(const std::vector<Eigen::Vector3i>& cells, const std::vector<Eigen::Vector3d>& places_m) {
+void SolidHierarchy::setPoints(const std::vector<Eigen::Vector3i>& cells,
+                               const std::vector<Eigen::Vector3d>& places_m) {
   std::vector<Eigen::Vector3i> at = cells;
   for (std::size_t l = 0; l < levels_.size(); ++l) {
     SolidLevel& level = levels_[l];

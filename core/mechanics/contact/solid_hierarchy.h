@@ -16,8 +16,8 @@ struct TangentSolve {
   int iterations = 0;
 };
 
-/// A body under large deformation on nested grids: any level can be the finest of a solve, so that a path is followed on
-/// coarse cells and only its end on fine ones. Multigrid is rebuilt on the positive part of the tangent at each
+/// A body under large deformation on nested grids: any level can be the finest of a solve, so that a path is followed
+/// on coarse cells and only its end on fine ones. Multigrid is rebuilt on the positive part of the tangent at each
 /// linearisation; coarse levels linearise at the mean displacement of the nodes they stand for.
 class SolidHierarchy {
  public:

@@ -15,9 +15,9 @@ namespace glisson::mechanics {
 namespace {
 
 constexpr std::size_t chunk = 32768;
-constexpr int degree = 3;              ///< of the smoother, before and after a coarse correction
-constexpr double smoothed = 16;        ///< it acts on [λmax / smoothed, λmax]
-constexpr double safety = 1.15;        ///< on the estimate of λmax
+constexpr int degree = 3;        ///< of the smoother, before and after a coarse correction
+constexpr double smoothed = 16;  ///< it acts on [λmax / smoothed, λmax]
+constexpr double safety = 1.15;  ///< on the estimate of λmax
 
 template <class F>
 void forRange(std::size_t n, const F& f) {
@@ -58,8 +58,7 @@ std::vector<char> nodesThere(const RowLattice& L, const std::vector<double>& mu)
       for (int r = 0; r < 4; ++r) {
         const std::size_t s = L.slot(row.begin, j + (r & 1), k + (r >> 1));
         for (std::size_t i = 0; i < static_cast<std::size_t>(row.length); ++i)
-          if (mu[row.offset + i] > 0)
-            there[s + i] = there[s + i + 1] = 1;
+          if (mu[row.offset + i] > 0) there[s + i] = there[s + i + 1] = 1;
       }
     }
   return there;
@@ -175,7 +174,8 @@ void SolidLevel::makeBlocks() {
       if (row.length == 0) continue;
       float* out[4];
       for (int q = 0; q < 4; ++q) out[q] = block_.data() + L.slot(row.begin, j + (q & 1), k + (q >> 1));
-      addCellDiagonal(modes, out, n, static_cast<std::size_t>(row.length), state_.data() + TangentArrays::count * row.offset);
+      addCellDiagonal(modes, out, n, static_cast<std::size_t>(row.length),
+                      state_.data() + TangentArrays::count * row.offset);
     }
   });
   for (const SlotSpring& s : springs)
@@ -311,9 +311,8 @@ void SolidLevel::estimateLambda() {
 void SolidLevel::smoothStep(float keep, float gain, bool first, bool fromZero) {
   const std::size_t n = nodes();
   const SmootherFields fields{n, block_.data(), y.data(), r.data(), d.data(), x.data()};
-  forRange(n, [&](std::size_t begin, std::size_t end) {
-    smoothNodes(fields, begin, end, keep, gain, first, fromZero);
-  });
+  forRange(n,
+           [&](std::size_t begin, std::size_t end) { smoothNodes(fields, begin, end, keep, gain, first, fromZero); });
   float &rest = r[3 * n], &along = d[3 * n], &travel = x[3 * n];
   if (!first) rest -= y[3 * n];
   along = (first ? 0.0F : keep * along) + gain * (travels_ ? inverseTravel_ * rest : 0.0F);

@@ -52,8 +52,8 @@ struct PointStiffness {
   Eigen::Matrix3f positive = Eigen::Matrix3f::Zero();
 };
 
-/// A triangle under a load that follows it, in the exact tangent: each of its points bears the same force, whose negative
-/// changes by Σ share_j δx_j.
+/// A triangle under a load that follows it, in the exact tangent: each of its points bears the same force, whose
+/// negative changes by Σ share_j δx_j.
 struct FollowerStiffness {
   std::array<std::uint32_t, 3> point{};
   std::array<Eigen::Matrix3f, 3> share{};  ///< N/m
@@ -106,15 +106,15 @@ class SolidLevel {
   CellModuli moduli;
   CellModes modes;
   Halved halved{};
-  std::vector<double> mu, lambda;           ///< per cell slot, times volume, N m
-  std::vector<std::size_t> fixed;           ///< positions in a field
-  std::vector<SlotSpring> springs;          ///< at most one per slot
-  std::vector<CarriedPoint> points;         ///< all surface points, as this level's cells carry them
-  Membrane membrane;                        ///< the skin on this level's cells, or empty
+  std::vector<double> mu, lambda;            ///< per cell slot, times volume, N m
+  std::vector<std::size_t> fixed;            ///< positions in a field
+  std::vector<SlotSpring> springs;           ///< at most one per slot
+  std::vector<CarriedPoint> points;          ///< all surface points, as this level's cells carry them
+  Membrane membrane;                         ///< the skin on this level's cells, or empty
   std::vector<FollowerStiffness> followers;  ///< of the present linearisation, where this level is the finest
-  std::vector<char> there;                  ///< per node slot: a filled cell touches it
-  std::vector<float> active;                ///< 3 × nodes: 1 where a node is there and free, else 0
-  std::vector<float> x, r, d, y;            ///< work of a cycle
+  std::vector<char> there;                   ///< per node slot: a filled cell touches it
+  std::vector<float> active;                 ///< 3 × nodes: 1 where a node is there and free, else 0
+  std::vector<float> x, r, d, y;             ///< work of a cycle
 
  private:
   void makeBlocks();
@@ -131,7 +131,7 @@ class SolidLevel {
   bool travels_ = false;
   float inverseTravel_ = 0;
   float lambdaMax_ = 0;
-  std::vector<float> power_;      ///< eigenvector of the last estimate
+  std::vector<float> power_;             ///< eigenvector of the last estimate
   std::vector<double> clampedDiagonal_;  ///< at the fixed degrees of freedom, before they are taken out, N/m
 };
 

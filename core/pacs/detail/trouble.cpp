@@ -22,13 +22,11 @@ std::string rejection(const Node& node, T_ASC_Parameters* parameters) {
              "' (calling AE title not recognised); have it entered there, or give --calling";
     case ASC_REASON_SU_CALLEDAETITLENOTRECOGNIZED:
       return "it is not called '" + node.calledTitle + "' (called AE title not recognised); give --called";
-    case ASC_REASON_SP_PRES_TEMPORARYCONGESTION:
-      return "it is busy (temporary congestion); try again later";
+    case ASC_REASON_SP_PRES_TEMPORARYCONGESTION: return "it is busy (temporary congestion); try again later";
     case ASC_REASON_SP_PRES_LOCALLIMITEXCEEDED:
       return "it has too many associations (local limit exceeded); try again later";
     case ASC_REASON_SU_APPCONTEXTNAMENOTSUPPORTED:
-    case ASC_REASON_SP_ACSE_PROTOCOLVERSIONNOTSUPPORTED:
-      return "it does not speak this version of DICOM";
+    case ASC_REASON_SP_ACSE_PROTOCOLVERSIONNOTSUPPORTED: return "it does not speak this version of DICOM";
     default:
       return r.result == ASC_RESULT_REJECTEDTRANSIENT
                  ? "it gave no reason, but may accept later; try again"
@@ -38,36 +36,23 @@ std::string rejection(const Node& node, T_ASC_Parameters* parameters) {
 
 std::string sentenceFor(std::uint16_t status, const std::string& ourTitle) {
   switch (status) {
-    case 0x0110:
-      return "processing failure";
-    case 0x0112:
-      return "no such object";
-    case 0x0117:
-      return "invalid object instance";
-    case 0x0122:
-      return "this kind of object or service is not supported there";
-    case 0x0124:
-      return "not authorised";
-    case 0x0210:
-      return "duplicate invocation";
-    case 0x0211:
-      return "unrecognised operation";
-    case 0x0212:
-      return "mistyped argument";
-    case 0xa701:
-      return "out of resources: it cannot count the matches";
-    case 0xa702:
-      return "out of resources: it cannot send the objects (does it reach and know '" + ourTitle + "'?)";
+    case 0x0110: return "processing failure";
+    case 0x0112: return "no such object";
+    case 0x0117: return "invalid object instance";
+    case 0x0122: return "this kind of object or service is not supported there";
+    case 0x0124: return "not authorised";
+    case 0x0210: return "duplicate invocation";
+    case 0x0211: return "unrecognised operation";
+    case 0x0212: return "mistyped argument";
+    case 0xa701: return "out of resources: it cannot count the matches";
+    case 0xa702: return "out of resources: it cannot send the objects (does it reach and know '" + ourTitle + "'?)";
     case 0xa801:
       return "it does not know the AE title '" + ourTitle +
              "' as a destination; have it entered there with this computer's address and the port of --receive-port, "
              "or leave out --move";
-    case 0xb000:
-      return "done, some objects failed";
-    case 0xfe00:
-      return "it was cancelled there";
-    default:
-      break;
+    case 0xb000: return "done, some objects failed";
+    case 0xfe00: return "it was cancelled there";
+    default: break;
   }
   if ((status & 0xff00) == 0xa700) return "out of resources";
   if ((status & 0xff00) == 0xa900) return "the data do not fit the service";

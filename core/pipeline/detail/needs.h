@@ -31,7 +31,7 @@ struct Needs {
   bool retractor = false;
   bool rigidBar = false;  ///< the retractor is a body of its own
   bool ligaments = false;
-  bool uncertainty = false;  ///< asked for, and offered
+  bool uncertainty = false;     ///< asked for, and offered
   bool followingLoads = false;  ///< loads that follow their faces
 };
 

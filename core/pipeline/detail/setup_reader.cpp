@@ -111,8 +111,9 @@ retraction::LigamentSpec readLigament(JsonObject& o) {
     if (name == retraction::nameOf(n)) l.name = n;
   if (o.has("stiffness_N_per_mm"))
     l.stiffness_N_per_mm = positive(o, "stiffness_N_per_mm", o.number("stiffness_N_per_mm"));
-  l.length_mm = positive(o, "length_mm", o.number("length_mm", l.name == LigamentName::Falciform ? l.falciformLength_mm
-                                                                                                 : l.otherLength_mm));
+  l.length_mm =
+      positive(o, "length_mm",
+               o.number("length_mm", l.name == LigamentName::Falciform ? l.falciformLength_mm : l.otherLength_mm));
   l.slack_mm = o.number("slack_mm", 0.0);
   if (l.slack_mm < 0) o.fail("slack_mm", "must not be negative: a ligament that pulls at rest has no place here");
   if (o.has("towards")) l.towards = direction(o, "towards", Eigen::Vector3d::Zero());
@@ -199,10 +200,11 @@ retraction::LoadSpec readLoad(JsonObject o, const std::filesystem::path& folder)
     if (r.contact == retraction::ContactKind::Patch && r.travel_mm)
       o.fail("contact", "is \"patch\", a pressure, which has no travel: give a force, or \"contact\": \"rigid\"");
     r.shape = o.word("shape", {"straight", "hook"}, "straight") == "hook" ? retraction::BarShape::Hook
-                                                                         : retraction::BarShape::Straight;
+                                                                          : retraction::BarShape::Straight;
     r.direction = direction(o, "direction", Eigen::Vector3d(0, -1, 0));
     if (o.has("axis")) r.axis = direction(o, "axis", Eigen::Vector3d(1, 0, 0));
-    if (r.patchAxis().cross(r.direction).norm() < 0.1) o.fail("axis", "is (nearly) parallel to the direction of the hoist");
+    if (r.patchAxis().cross(r.direction).norm() < 0.1)
+      o.fail("axis", "is (nearly) parallel to the direction of the hoist");
     load = r;
   }
   o.finish();

@@ -18,9 +18,9 @@ void tellOfContact(const Scene& scene, RunResult& result);
 /// What the second stiffness has to say, but slips.
 void tellOfAtlas(RunResult& result);
 
-/// Whether a result may be compared: converged and a deformation of the body. Of a linear answer, which is one beyond its
-/// limits too and carries its reservations, it is asked only that no cell under a rigid bar is turned inside out as a
-/// whole.
+/// Whether a result may be compared: converged and a deformation of the body. Of a linear answer, which is one beyond
+/// its limits too and carries its reservations, it is asked only that no cell under a rigid bar is turned inside out as
+/// a whole.
 bool isAnswer(const retraction::Result& result);
 /// Why two runs of which one is no answer have no difference.
 void withhold(RunResult& result);

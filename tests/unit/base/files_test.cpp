@@ -87,9 +87,7 @@ TEST(PrivateFolder, OfAKilledProgramIsRemovedByTheNextOne) {
   // As if an hour had passed: younger ones may just be in the making.
   for (const fs::directory_entry& e : fs::directory_iterator(base.path()))
     fs::last_write_time(e.path(), fs::file_time_type::clock::now() - std::chrono::hours(1));
-  {
-    const PrivateFolder next;
-  }
+  { const PrivateFolder next; }
   EXPECT_EQ(entriesOf(base.path()), 3u);
   EXPECT_TRUE(fs::is_directory(inUse.path())) << "its program lives";
   EXPECT_TRUE(fs::is_directory(base / "glisson-notes"));

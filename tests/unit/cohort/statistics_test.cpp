@@ -115,11 +115,12 @@ TEST(CohortRecords, NameNobody) {
   EXPECT_EQ(
       detail::anonymous("glisson-cli: /data/Doe^Jane/mri/x.dcm of Doe^Jane is cut off", "/data/Doe^Jane", "case-002"),
       "mri/x.dcm of case-002 is cut off");
-  EXPECT_EQ(detail::anonymous("series 3 cannot be read as a volume: a slice is missing at 12 mm (between 'DOE_0178.dcm' "
-                              "and 'DOE_0180.dcm'); it has no 'stiffness', the region's name is 'Doe's liver'",
-                              "/data/7", "case-007"),
-            "series 3 cannot be read as a volume: a slice is missing at 12 mm (between (a name) and (a name)); it has no "
-            "'stiffness', the region's name is (a name)");
+  EXPECT_EQ(
+      detail::anonymous("series 3 cannot be read as a volume: a slice is missing at 12 mm (between 'DOE_0178.dcm' "
+                        "and 'DOE_0180.dcm'); it has no 'stiffness', the region's name is 'Doe's liver'",
+                        "/data/7", "case-007"),
+      "series 3 cannot be read as a volume: a slice is missing at 12 mm (between (a name) and (a name)); it has no "
+      "'stiffness', the region's name is (a name)");
   EXPECT_EQ(detail::anonymous("nothing in '/data/2/': 2 of IM-0002.dcm, 20 slices", "/data/2", "case-002"),
             "nothing in 'case-002': case-002 of IM-0002.dcm, 20 slices");
 }

@@ -19,8 +19,7 @@ TEST(SliceStack, roundedPlacesAreEvenAndTellHowFarTheyAreOff) {
     const SliceStack exact = stackOf(places(21, step_mm, [](int, double z) { return z; }));
     EXPECT_TRUE(exact.even && exact.exact);
     EXPECT_NEAR(exact.step_mm, step_mm, 1e-12);
-    const SliceStack rounded =
-        stackOf(places(21, step_mm, [](int, double z) { return std::round(10.0 * z) / 10.0; }));
+    const SliceStack rounded = stackOf(places(21, step_mm, [](int, double z) { return std::round(10.0 * z) / 10.0; }));
     EXPECT_TRUE(rounded.even);
     EXPECT_LE(rounded.off_mm, 0.1);
     EXPECT_NEAR(rounded.step_mm, step_mm, 1e-3 * step_mm);

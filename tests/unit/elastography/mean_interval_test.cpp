@@ -89,14 +89,15 @@ Coverage coverage(const image::Grid& g, double length_mm, double sliceSd, int ma
   }
   std::nth_element(found.begin(), found.begin() + maps / 2, found.end());
   c.length_mm = found[static_cast<std::size_t>(maps / 2)];
-  std::printf("correlated over %.0f mm, slices of their own %.2f kPa, %d slices: 95 %% intervals hold the mean in %.1f %%, "
-              "SD/sqrt(n) in %.1f %%; length found %.1f mm\n",
-              length_mm, sliceSd, g.size.z(), 100 * c.share, 100 * c.voxels, c.length_mm);
+  std::printf(
+      "correlated over %.0f mm, slices of their own %.2f kPa, %d slices: 95 %% intervals hold the mean in %.1f %%, "
+      "SD/sqrt(n) in %.1f %%; length found %.1f mm\n",
+      length_mm, sliceSd, g.size.z(), 100 * c.share, 100 * c.voxels, c.length_mm);
   return c;
 }
 
-// Random fields of known correlation length: 95 % intervals hold the true mean in 95 %. The share over 150 maps is itself
-// known to 1.8 %; three of these below, and above as the larger one of two errors is taken.
+// Random fields of known correlation length: 95 % intervals hold the true mean in 95 %. The share over 150 maps is
+// itself known to 1.8 %; three of these below, and above as the larger one of two errors is taken.
 TEST(MeanInterval, HoldsTheMeanOfCorrelatedFields) {
   Random random(11);
   for (const double length_mm : {0.0, 6.0, 12.0}) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "image/morphology.h"
 #include "inversion/stencil.h"
 #include "simulated.h"
 
@@ -145,6 +146,35 @@ TEST(Stencil, IsExactForQuadraticFieldsAndUndoesItsOwnResponse) {
     EXPECT_FALSE(s.squaredWavenumber(10.0));
   }
   EXPECT_THROW(Stencil({2, 2, 10}, 6.0, 3), BadInput);
+}
+
+TEST(Waves, ClippedPhasesAreFittedThroughWhatIsLeft) {
+  Random random(23);
+  const image::Grid g = lattice(40, 40, 1, 1.64, 1.64, 10);
+  const Field wave = planeWave(g, std::polar(2.1, 0.1), 60, inPlane(0.3), 3.9);
+  PhaseOffsets p = phases(
+      g, [](const Eigen::Vector3d&) { return Complex(0.0); }, 8, 0.0, random);
+  std::size_t clipped = 0;
+  for (std::size_t v = 0; v < g.voxelCount(); ++v) {
+    const Complex u = wave(g.indexToLps({double(v % 40), double(v / 40), 0.0}));
+    for (int t = 0; t < 8; ++t) {
+      const double phase = (u * std::polar(1.0, 2.0 * std::numbers::pi * t / 8)).real();
+      clipped += std::abs(phase) > std::numbers::pi ? 1 : 0;
+      p.offsets_rad[static_cast<std::size_t>(t)].values[v] =
+          static_cast<float>(std::clamp(phase, -std::numbers::pi, std::numbers::pi));
+    }
+  }
+  ASSERT_GT(clipped, 100u);
+  WaveOptions o;
+  o.mask = image::Mask(g, 1);
+  const Waves w = firstHarmonic({p}, o);
+  ASSERT_EQ(w.warnings.size(), 1u);
+  EXPECT_EQ(image::count(w.mask), g.voxelCount());
+  double worst = 0.0;
+  for (std::size_t v = 0; v < g.voxelCount(); ++v)
+    worst = std::max(worst, std::abs(Complex(w.directions.front().wave.values[v]) -
+                                     wave(g.indexToLps({double(v % 40), double(v / 40), 0.0}))));
+  EXPECT_LT(worst, 1e-4);
 }
 
 }  // namespace

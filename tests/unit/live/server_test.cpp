@@ -228,8 +228,7 @@ TEST_F(Live, EndsAfterTheFramesAskedForAtTheRateAskedFor) {
 /// A liver of one point that does not bear a force beyond 1 N.
 class Brittle : public retraction::LiveRetraction {
  public:
-  explicit Brittle(double scene_N, retraction::LiveOutcome beyond = retraction::LiveOutcome::Slips)
-      : outcome_(beyond) {
+  explicit Brittle(double scene_N, retraction::LiveOutcome beyond = retraction::LiveOutcome::Slips) : outcome_(beyond) {
     points_ = 1;
     sceneForce_N_ = {0.0, -scene_N, 0.0};
     sceneTarget_.force_N = sceneForce_N_;
@@ -259,8 +258,8 @@ TEST(LiveSlip, IsToldInEveryFrameUntilItIsOver) {
   ServerOptions options;
   options.port = 0;
   auto served = std::async(std::launch::async, [&] {
-    return serve(livers, {Eigen::Vector3d::Zero()}, options, [&](int p) { port.set_value(p); },
-                 Progress({}, stop.get_token()));
+    return serve(
+        livers, {Eigen::Vector3d::Zero()}, options, [&](int p) { port.set_value(p); }, Progress({}, stop.get_token()));
   });
   Client client(open.get());
   for (int n = 0; n < 3; ++n) EXPECT_EQ(client.next().state, "slips: atlas");
@@ -280,7 +279,8 @@ TEST(LiveSlip, IsToldInEveryFrameUntilItIsOver) {
 
 TEST(LiveRehearsal, CountsItsFramesWithoutAClient) {
   using retraction::LiveOutcome;
-  const retraction::LiveLivers livers{std::make_unique<Brittle>(2.0), std::make_unique<Brittle>(1.5, LiveOutcome::Cuts)};
+  const retraction::LiveLivers livers{std::make_unique<Brittle>(2.0),
+                                      std::make_unique<Brittle>(1.5, LiveOutcome::Cuts)};
   const ServerStatistics s = rehearse(livers, 25);
   EXPECT_EQ(s.frames, 25);
   EXPECT_EQ(s.slipping, 25);

@@ -9,10 +9,10 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "contact_scenes.h"
 #include "mechanics/contact/contact_setup.h"
 #include "mechanics/hyperelastic.h"
 #include "mechanics/measures.h"
-#include "contact_scenes.h"
 
 namespace glisson::mechanics {
 namespace {
@@ -199,8 +199,7 @@ TEST(RigidBarContact, ABarThatIsAskedForTooMuchSlipsAndSaysWhatItBore) {
   for (int side = 0; side < 4; ++side)  // the end face as well: what the bar slides over
     for (int k = 0; k < 8; ++k)
       for (int j = 0; j < 8; ++j)
-        if (side == 0)
-          p.surface.push_back({{60e-3, (j + 0.5) * 1.25e-3, (k + 0.5) * 1.25e-3}, {1, 0, 0}, 1.5625e-6});
+        if (side == 0) p.surface.push_back({{60e-3, (j + 0.5) * 1.25e-3, (k + 0.5) * 1.25e-3}, {1, 0, 0}, 1.5625e-6});
   p.bar = RigidBar{{{0.052, 0.05, -0.02}, {0.052, 0.05, 0.03}}, 0.004, {0, -1, 0}};
   p.force_N = 5.0;
   const ContactSolution s = solveContact(p);
@@ -233,8 +232,8 @@ TEST(RigidBarContact, ABarThatMeetsNothingIsRefused) {
 
 TEST(RigidBar, TheGapOfABentBarHasTheDerivativesItSays) {
   // Beside the arc, over both ends, inside the bar and behind the circle's middle; no point on a border between them.
-  RigidBar bar = hook({0.08, 0.02, 0.05}, Eigen::Vector3d(1, 0.2, 0).normalized(), Eigen::Vector3d(-0.2, 1, 0).normalized(),
-                      0.08, std::numbers::pi / 2);
+  RigidBar bar = hook({0.08, 0.02, 0.05}, Eigen::Vector3d(1, 0.2, 0).normalized(),
+                      Eigen::Vector3d(-0.2, 1, 0).normalized(), 0.08, std::numbers::pi / 2);
   EXPECT_NEAR((bar.centre_m() - Eigen::Vector3d(0.08, 0.02, 0.05)).norm(), 0, 1e-12);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> range(-0.07, 0.07);
@@ -253,7 +252,8 @@ TEST(RigidBar, TheGapOfABentBarHasTheDerivativesItSays) {
     Eigen::Vector3d slope;
     Eigen::Matrix3d curvature;
     for (int c = 0; c < 3; ++c) {
-      const Gap up = gapTo(bar, p + step * Eigen::Vector3d::Unit(c), s), down = gapTo(bar, p - step * Eigen::Vector3d::Unit(c), s);
+      const Gap up = gapTo(bar, p + step * Eigen::Vector3d::Unit(c), s),
+                down = gapTo(bar, p - step * Eigen::Vector3d::Unit(c), s);
       smooth = smooth && up.t.isZero(0) == gap.t.isZero(0) && down.t.isZero(0) == gap.t.isZero(0);
       slope[c] = (up.g_m - down.g_m) / (2 * step);
       curvature.col(c) = (up.n - down.n) / (2 * step);
@@ -337,8 +337,10 @@ TEST(RigidBarContact, ABarThatIsDrivenIntoABlockBearsOrSaysThatItCuts) {
     const bool answered = s.outcome == ContactOutcome::Reached;
     EXPECT_EQ(answered, s.solution.report.converged());
     // The block bears some 5 N at 16 mm, and stiffens as the bar comes near the clamp.
-    if (answered) EXPECT_GT(s.force_N.norm(), 5.0) << h_mm << " mm";
-    else EXPECT_TRUE(s.outcome == ContactOutcome::Cuts || s.outcome == ContactOutcome::Folds) << h_mm << " mm";
+    if (answered)
+      EXPECT_GT(s.force_N.norm(), 5.0) << h_mm << " mm";
+    else
+      EXPECT_TRUE(s.outcome == ContactOutcome::Cuts || s.outcome == ContactOutcome::Folds) << h_mm << " mm";
   }
 }
 

@@ -61,7 +61,7 @@ TEST(ContactTracker, AFrameIsBoundedAndTellsHowFarItIsFromRest) {
     const Eigen::Vector3d target(0, -1e-3 * frame, 0);
     const TrackedState s = tracker.moveTowards(target);
     EXPECT_LE(s.newton, 2);
-    EXPECT_LE(s.inner, 2 * 2 * 4);  // a direction that does not descend is sought once more
+    EXPECT_LE(s.inner, 2 * 2 * 4);                     // a direction that does not descend is sought once more
     EXPECT_LT((s.moved_m - target).norm(), 1.001e-3);  // it may have waited for the body once
     exact.moveTowards(s.moved_m);
     tracker.displacements(u_m);

@@ -96,6 +96,44 @@ TEST_P(AtEquilibrium, TheTangentSaysWhatFullSolvesOfChangedProblemsSay) {
   }
 }
 
+TEST_P(AtEquilibrium, TheAdjointSaysOfAFigureWhatEveryTangentSaysAndWhatFullSolvesSay) {
+  const ContactProblem p = sprung(GetParam());
+  ContactOptions options;
+  options.tolerance = 1e-9;
+  const ContactSolution answer = solveContact(p, options);
+  ASSERT_EQ(answer.outcome, ContactOutcome::Reached);
+  Equilibrium at(p, options, answer.solution.u_m, answer.travel_m);
+  ASSERT_TRUE(at.usable());
+  MotionWeights figure;
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  figure.node = NodalField::Zero(3, answer.solution.u_m.cols());
+  for (double& w : figure.node.reshaped()) w = normal(random);
+  figure.surface = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(p.surface.size()));
+  for (std::size_t s = 0; s < p.surface.size(); ++s)
+    if (answer.pressure_Pa[s] > 0) figure.surface(1, static_cast<Eigen::Index>(s)) = 5;
+  figure.travel = 40;
+  const std::optional<std::vector<double>> gradient = at.gradientByModuli(figure, 1e-9, 2000);
+  ASSERT_TRUE(gradient);
+  ASSERT_EQ(gradient->size(), p.problem.body.E_Pa.size());
+  for (const char* name : {"moduli", "stiffness"}) {
+    const Change change = namedChange(name, p, at.bar());
+    double said = 0, size = 0;
+    for (std::size_t c = 0; c < gradient->size(); ++c) {
+      said += (*gradient)[c] * change.logModuli[c];
+      size += std::abs((*gradient)[c] * change.logModuli[c]);
+    }
+    const EquilibriumMotion forward = at.respond(at.by(change), 1e-9, 2000);
+    ASSERT_TRUE(forward.found) << name;
+    EXPECT_NEAR(said, figure.of(forward), 1e-6 * size) << name;
+    const double step = 2e-3;
+    const EquilibriumMotion up = at.afterwards(scaled(change, step), nullptr, 1e-9, {});
+    const EquilibriumMotion down = at.afterwards(scaled(change, -step), nullptr, 1e-9, {});
+    ASSERT_TRUE(up.found && down.found) << name;
+    EXPECT_NEAR(said, (figure.of(up) - figure.of(down)) / (2 * step), 1e-3 * size) << name;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Laws, AtEquilibrium,
                          testing::Values(SolidLaw::Polynomial, SolidLaw::Logarithmic, SolidLaw::Linear));
 

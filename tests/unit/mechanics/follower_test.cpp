@@ -34,7 +34,8 @@ ContactProblem held(const VoxelBody& body, const std::function<std::array<bool, 
 }
 
 /// The faces of a box that look along an axis, at its upper side, under a load.
-std::vector<FollowerFace> facesOf(const VoxelBody& b, int axis, double pressure_Pa, const Eigen::Vector3d& shear_Pa = {0, 0, 0}) {
+std::vector<FollowerFace> facesOf(const VoxelBody& b, int axis, double pressure_Pa,
+                                  const Eigen::Vector3d& shear_Pa = {0, 0, 0}) {
   std::vector<FollowerFace> faces;
   const int first = (axis + 1) % 3, second = (axis + 2) % 3;
   for (int j = 0; j < b.cells[second]; ++j)
@@ -59,7 +60,9 @@ Eigen::Vector3d tip_mm(const ContactProblem& p, const ContactSolution& s) {
   return 1e3 * s.solution.u_m.col(VoxelMesh(p.problem.body).nodeAt(n.x(), n.y() / 2, n.z() / 2));
 }
 
-const auto clampedEnd = [](const Eigen::Vector3i& at) { return std::array<bool, 3>{at.x() == 0, at.x() == 0, at.x() == 0}; };
+const auto clampedEnd = [](const Eigen::Vector3i& at) {
+  return std::array<bool, 3>{at.x() == 0, at.x() == 0, at.x() == 0};
+};
 
 TEST(FollowerLoads, AreTheDerivativesOfWhatTheySay) {
   std::mt19937 random(2);
@@ -86,14 +89,18 @@ TEST(FollowerLoads, HaveAPotentialWhereTheirRimMovesInPlanesOnly) {
     return potentialOf(VoxelMesh(b), facesOf(b, 1, 100), p.problem.supports.fixations);
   };
   EXPECT_FALSE(potential(clampedEnd));
-  EXPECT_FALSE(potential([](const Eigen::Vector3i& at) { return std::array<bool, 3>{at.x() == 0, false, at.z() == 0}; }));
+  EXPECT_FALSE(potential([](const Eigen::Vector3i& at) {
+    return std::array<bool, 3>{at.x() == 0, false, at.z() == 0};
+  }));
   // All four sides slide along planes: those across x and z are parallel in pairs, and volume is counted along y alone.
   const auto sliding = potential([](const Eigen::Vector3i& at) {
     return std::array<bool, 3>{at.x() == 0 || at.x() == 4, false, at.z() == 0 || at.z() == 5};
   });
   ASSERT_TRUE(sliding);
   EXPECT_EQ(sliding->weight, Eigen::Vector3d(0, 1, 0));
-  EXPECT_TRUE(potential([](const Eigen::Vector3i& at) { return std::array<bool, 3>{at.y() == 3, at.y() == 3, at.y() == 3}; }));
+  EXPECT_TRUE(potential([](const Eigen::Vector3i& at) {
+    return std::array<bool, 3>{at.y() == 3, at.y() == 3, at.y() == 3};
+  }));
   // Two pressures side by side have a rim between them.
   std::vector<FollowerFace> two = facesOf(b, 1, 100);
   for (std::size_t i = 0; i < two.size() / 2; ++i) two[i].pressure_Pa = 50;
@@ -141,8 +148,9 @@ TEST(FollowerLoads, OpenFacesConvergeUnderLargePressures) {
   };
   // A block on its clamped base, pressed on one side: p/E to .7.
   for (const double p_Pa : {600.0, 2000.0, 4200.0}) {
-    ContactProblem p = held(box({16, 6, 10}, 10e-3, 6e3, 0.45),
-                            [](const Eigen::Vector3i& at) { return std::array<bool, 3>{at.y() == 0, at.y() == 0, at.y() == 0}; });
+    ContactProblem p = held(box({16, 6, 10}, 10e-3, 6e3, 0.45), [](const Eigen::Vector3i& at) {
+      return std::array<bool, 3>{at.y() == 0, at.y() == 0, at.y() == 0};
+    });
     p.pressures = facesOf(p.problem.body, 0, p_Pa);
     balanced(p, p_Pa * 6e-3);
   }

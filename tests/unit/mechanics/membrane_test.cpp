@@ -35,10 +35,8 @@ struct Sheet {
     for (int k = 0; k <= cells.z(); ++k)
       for (int j = 0; j <= cells.y(); ++j)
         for (int i = 0; i <= cells.x(); ++i) {
-          const Eigen::Vector3d v =
-              (F - Eigen::Matrix3d::Identity()) * Eigen::Vector3d(i, j, k).cwiseProduct(h_m);
-          for (std::size_t c = 0; c < 3; ++c)
-            u[c * nodes() + lattice.slot(i, j, k)] = v[static_cast<Eigen::Index>(c)];
+          const Eigen::Vector3d v = (F - Eigen::Matrix3d::Identity()) * Eigen::Vector3d(i, j, k).cwiseProduct(h_m);
+          for (std::size_t c = 0; c < 3; ++c) u[c * nodes() + lattice.slot(i, j, k)] = v[static_cast<Eigen::Index>(c)];
         }
     return u;
   }
@@ -54,7 +52,8 @@ TEST(Membrane, StoresThePlaneStressEnergyOfItsStretch) {
   const Sheet sheet(skin);
   const double a = 1.2, c = 1.1, ea = (a * a - 1) / 2, ec = (c * c - 1) / 2;
   const double perArea = 250 / (1 - 0.09) / 2 * (ea * ea + ec * ec + 2 * 0.3 * ea * ec);
-  EXPECT_NEAR(sheet.energy(Eigen::Vector3d(a, 0.7, c).asDiagonal()), perArea * sheet.area_m2(), 1e-6 * perArea * sheet.area_m2());
+  EXPECT_NEAR(sheet.energy(Eigen::Vector3d(a, 0.7, c).asDiagonal()), perArea * sheet.area_m2(),
+              1e-6 * perArea * sheet.area_m2());
   // Turned as a whole it stores nothing.
   EXPECT_NEAR(sheet.energy(Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix()), 0, 1e-12);
 }
@@ -117,7 +116,8 @@ TEST(Membrane, ForceIsTheDerivativeOfTheEnergyAndTangentThatOfTheForce) {
     e[c * sheet.nodes() + node] = 1.0F;
     membrane.addTangent(e.data(), sheet.nodes(), column.data());
     for (std::size_t r = 0; r < 3; ++r)
-      EXPECT_NEAR(column[r * sheet.nodes() + node], blocks[entry[r][c] * sheet.nodes() + node], 1e-3F * std::abs(blocks[node]));
+      EXPECT_NEAR(column[r * sheet.nodes() + node], blocks[entry[r][c] * sheet.nodes() + node],
+                  1e-3F * std::abs(blocks[node]));
   }
 }
 

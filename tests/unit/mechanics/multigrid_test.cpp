@@ -137,6 +137,7 @@ TEST(Multigrid, ACycleIsSymmetricPositiveDefinite) {
       Random random(6);
       const std::size_t n = op.lattice().size();
       std::vector<double> a(n), b(n), Ba(n), Bb(n);
+      std::vector<float> z;
       NodalField field(3, op.mesh().nodeCount());
       const auto fill = [&](std::vector<double>& v) {
         for (Eigen::Index i = 0; i < field.size(); ++i) field(i) = random.normal();
@@ -148,8 +149,10 @@ TEST(Multigrid, ACycleIsSymmetricPositiveDefinite) {
         fill(b);
         // Rough and smooth ones: those that the cycle has been over already have lost what it handles best.
         for (int pass = 0; pass < 3; ++pass) {
-          multigrid.cycle(a, Ba);
-          multigrid.cycle(b, Bb);
+          multigrid.cycle(a, z);
+          Ba.assign(z.begin(), z.end());
+          multigrid.cycle(b, z);
+          Bb.assign(z.begin(), z.end());
           EXPECT_GT(dot(a, Ba), 0.0);
           EXPECT_GT(dot(b, Bb), 0.0);
           EXPECT_NEAR(dot(a, Bb), dot(b, Ba), 1e-4 * std::sqrt(dot(a, Ba) * dot(b, Bb)));
@@ -199,6 +202,27 @@ TEST(Multigrid, ConvergesOverElementsPoissonsRatiosAndContrasts) {
     for (const double nu : {0.495, 0.499}) EXPECT_LE(iterationsOf(clampedBox(16, nu, one), element), 60) << nu;
     EXPECT_LE(iterationsOf(clampedBox(16, 0.4999, one), element), 250);
   }
+}
+
+TEST(Multigrid, StrongContrastTakesALargerCoarsestLevelOrALongerSmoother) {
+  // Layers of four cells, which the usual coarsest level of 4³ cells mixes; a modulus of its own for every cell.
+  const auto layers = [](const Vector3d& x) { return static_cast<int>(8 * x.z()) % 2 == 0 ? 1.0 : 1e3; };
+  const auto noise = [random = Random(3)](const Vector3d&) mutable { return std::pow(10.0, random.uniform(-3, 3)); };
+  for (const double nu : {0.3, 0.49}) EXPECT_LE(iterationsOf(clampedBox(32, nu, layers), HexElement::Incompatible), 60);
+  EXPECT_LE(iterationsOf(clampedBox(32, 0.3, noise), HexElement::Incompatible), 65);
+}
+
+TEST(Multigrid, ALongerSmootherStaysWithinItsBounds) {
+  const Problem p = clampedBox(17, 0.45, [](const Vector3d&) { return 1.0; });
+  const VoxelOperator op(p.body, HexElement::Incompatible, p.supports);
+  Multigrid multigrid(op);
+  const int degree = multigrid.degree();
+  EXPECT_FALSE(multigrid.lengthen(1.0));
+  EXPECT_TRUE(multigrid.lengthen(2.0));
+  EXPECT_EQ(multigrid.degree(), 2 * degree);
+  EXPECT_TRUE(multigrid.lengthen(1e3));
+  EXPECT_EQ(multigrid.degree(), MultigridOptions::longest);
+  EXPECT_FALSE(multigrid.lengthen(2.0));
 }
 
 }  // namespace

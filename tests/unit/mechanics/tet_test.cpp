@@ -3,7 +3,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -223,85 +222,6 @@ TEST(Tetrahedra, LinearOnesLockAndQuadraticOnesDoNot) {
   EXPECT_GT(previous, 0.5);
   const Problem fine = beam({24, 6, 6}, 0.49);
   EXPECT_NEAR(tip_mm(fine, solveTets(fine, onTetrahedra(fine, TetOrder::Quadratic), {})), 0.9970, 0.0164);
-}
-
-TEST(Tetrahedra, DisplacementConvergesWithTheThirdOrder) {
-  // Manufactured: u = φ v, φ = sin πx sin πy sin πz on the unit cube, zero on its surface.
-  constexpr double nu = 0.3;
-  const double mu = 0.5 / (1 + nu);
-  const double lambda = nu / ((1 + nu) * (1 - 2 * nu));
-  const double pi = std::numbers::pi;
-  const Eigen::Vector3d v(1, -0.5, 0.7);
-  const auto phi = [&](const Eigen::Vector3d& x) {
-    return std::sin(pi * x.x()) * std::sin(pi * x.y()) * std::sin(pi * x.z());
-  };
-  const auto force = [&](const Eigen::Vector3d& x) {
-    Eigen::Matrix3d hessian;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        hessian(i, j) = i == j ? -pi * pi * phi(x)
-                               : pi * pi * std::cos(pi * x[i]) * std::cos(pi * x[j]) * std::sin(pi * x[3 - i - j]);
-    return Eigen::Vector3d(3 * pi * pi * mu * phi(x) * v - (lambda + mu) * hessian * v);
-  };
-  for (const bool quadratic : {false, true}) {
-    double previous = 0;
-    for (const int n : {3, 6, 9}) {
-      TetProblem p;
-      const VoxelBody body = test::box({n, n, n}, {1, 1, 1}, 1, nu);
-      p.mesh = tetrahedra(body, VoxelMesh(body));
-      if (quadratic) p.mesh = withMiddles(p.mesh);
-      p.poisson = nu;
-      for (int node = 0; node < p.mesh.nodeCount(); ++node) {
-        const Eigen::Vector3d x = p.mesh.nodes_m.col(node);
-        if (x.minCoeff() < 1e-12 || x.maxCoeff() > 1 - 1e-12)
-          p.supports.fixations.push_back({node, {true, true, true}, Eigen::Vector3d::Zero()});
-      }
-      // Loads and error by Gauss points of the cube folded onto the tetrahedron, exact to degree 5.
-      const auto points = [&](int t, const std::function<void(const Eigen::Vector3d&, double)>& use) {
-        const double a = std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(1.2));
-        const double b = std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(1.2));
-        const std::array<double, 4> place = {-b, -a, a, b};
-        const double heavy = (18 + std::sqrt(30.0)) / 72;
-        const double light = (18 - std::sqrt(30.0)) / 72;
-        const std::array<double, 4> weight = {light, heavy, heavy, light};
-        double volume = 0;
-        for (const TetPoint& g : tetPoints(p.mesh, t)) volume += g.volume_m3;
-        for (std::size_t g = 0; g < 64; ++g) {
-          const double x = 0.5 * (1 + place[g % 4]);
-          const double y = 0.5 * (1 + place[g / 4 % 4]);
-          const double z = 0.5 * (1 + place[g / 16]);
-          const double w = weight[g % 4] * weight[g / 4 % 4] * weight[g / 16];
-          use({x, y * (1 - x), z * (1 - x) * (1 - y)}, 6 * volume * w * (1 - x) * (1 - x) * (1 - y));
-        }
-      };
-      p.f_N = NodalField::Zero(3, p.mesh.nodeCount());
-      const auto at = [&](int t, const Eigen::VectorXd& N, const Eigen::Matrix3Xd& field) {
-        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-        for (Eigen::Index a = 0; a < N.size(); ++a) sum += N[a] * field.col(p.mesh.tets(a, t));
-        return sum;
-      };
-      for (int t = 0; t < p.mesh.tetCount(); ++t)
-        points(t, [&](const Eigen::Vector3d& xi, double w) {
-          const Eigen::VectorXd N = tetShape(quadratic, xi);
-          const Eigen::Vector3d f = force(at(t, N, p.mesh.nodes_m));
-          for (Eigen::Index a = 0; a < N.size(); ++a) p.f_N.col(p.mesh.tets(a, t)) += w * N[a] * f;
-        });
-      const Solution s = solveTets(p);
-      double sum = 0;
-      for (int t = 0; t < p.mesh.tetCount(); ++t)
-        points(t, [&](const Eigen::Vector3d& xi, double w) {
-          const Eigen::VectorXd N = tetShape(quadratic, xi);
-          sum += w * (at(t, N, s.u_m) - phi(at(t, N, p.mesh.nodes_m)) * v).squaredNorm();
-        });
-      const double error = std::sqrt(sum);
-      if (previous > 0) {
-        const double order = std::log(previous / error) / std::log(n == 6 ? 2.0 : 1.5);
-        EXPECT_GT(order, quadratic ? 2.6 : 1.5);
-        EXPECT_LT(order, quadratic ? 3.6 : 2.5);
-      }
-      previous = error;
-    }
-  }
 }
 
 TEST(Tetrahedra, SolversAgreeSpringsHoldAndReactionsBalance) {

@@ -108,7 +108,8 @@ TEST(Pressure, IsDrawnOnTheLiverAndNeedsABar) {
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
   const RetractionScene scene = withBar();
-  SceneOptions3D options{.shown = Shown3D::PressureMre, .camera = barCamera, .width = 400, .height = 300, .decorate = false};
+  SceneOptions3D options{
+      .shown = Shown3D::PressureMre, .camera = barCamera, .width = 400, .height = 300, .decorate = false};
   const Picture pressed = overlay3D(scene, options);
   RetractionScene none = scene;
   none.bar->mre.pressure_kPa.setZero();

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "render/overlay.h"
 
@@ -61,44 +63,37 @@ inline void appendTube(anatomy::TriangleMesh& mesh, const Eigen::Vector3d& a, co
     }
 }
 
-/// A liver-sized ellipsoid with a branching vessel tree, hoisted under its inferior right lobe; the MRE state moves
-/// further than the atlas state (a softer organ) or less, by scale.
-inline render::RetractionScene retractionScene(double mreOverAtlas, int inPlane = 128) {
-  image::Grid grid;
-  const double spacing = 210.0 / inPlane;
-  grid.size = {inPlane, inPlane * 4 / 5, 40};
-  grid.spacing_mm = {spacing, spacing, 4.0};
-  grid.origin_lps_mm = {-135.0, -75.0, -80.0};
-  const Eigen::Vector3d centre(-45.0, 5.0, 0.0), radii(80.0, 52.0, 62.0);
-  const Eigen::Vector3d contact(-85.0, -12.0, -48.0);
-
+/// A liver-sized ellipsoid (r² + 0.18 x = 1 in its radii) with a branching vessel tree, in a body with fat and spine.
+struct SyntheticLiver {
   struct Tube {
     Eigen::Vector3d a, b;
     double ra, rb;
   };
-  const std::vector<Tube> tubes{{{-10, 10, -25}, {-40, 5, -5}, 6.5, 5.5},   {{-40, 5, -5}, {-80, 10, -15}, 5.0, 3.5},
-                                {{-40, 5, -5}, {-30, -15, 20}, 4.5, 3.0},   {{-80, 10, -15}, {-105, 0, -30}, 3.2, 1.8},
-                                {{-80, 10, -15}, {-100, 25, 5}, 3.0, 1.8},  {{-30, -15, 20}, {-10, -25, 35}, 2.8, 1.6},
-                                {{-30, -15, 20}, {-55, -25, 30}, 2.6, 1.6}, {{-80, 10, -15}, {-90, -5, -40}, 3.0, 1.8},
-                                {{-40, 5, -5}, {-62, 20, 25}, 4.0, 2.5},    {{-62, 20, 25}, {-90, 22, 30}, 2.4, 1.4}};
-  const auto inEllipsoid = [=](const Eigen::Vector3d& p) {
+  Eigen::Vector3d centre{-45.0, 5.0, 0.0}, radii{80.0, 52.0, 62.0};
+  Eigen::Vector3d contact{-85.0, -12.0, -48.0};  ///< of the retractor, under the inferior right lobe
+  std::vector<Tube> tubes{{{-10, 10, -25}, {-40, 5, -5}, 6.5, 5.5},   {{-40, 5, -5}, {-80, 10, -15}, 5.0, 3.5},
+                          {{-40, 5, -5}, {-30, -15, 20}, 4.5, 3.0},   {{-80, 10, -15}, {-105, 0, -30}, 3.2, 1.8},
+                          {{-80, 10, -15}, {-100, 25, 5}, 3.0, 1.8},  {{-30, -15, 20}, {-10, -25, 35}, 2.8, 1.6},
+                          {{-30, -15, 20}, {-55, -25, 30}, 2.6, 1.6}, {{-80, 10, -15}, {-90, -5, -40}, 3.0, 1.8},
+                          {{-40, 5, -5}, {-62, 20, 25}, 4.0, 2.5},    {{-62, 20, 25}, {-90, 22, 30}, 2.4, 1.4}};
+
+  bool holds(const Eigen::Vector3d& p) const {
     const Eigen::Vector3d q = (p - centre).cwiseQuotient(radii);
     return q.squaredNorm() + 0.18 * q.x() < 1.0;
-  };
-  const auto hoist = [=](const Eigen::Vector3d& p, double scale) -> Eigen::Vector3d {
+  }
+
+  /// Displacement by the hoist at the contact.
+  Eigen::Vector3d hoisted_mm(const Eigen::Vector3d& p, double scale) const {
     const double r = (p - contact).norm();
     const double near = std::exp(-r * r / (2.0 * 42.0 * 42.0));
     return scale * (near * Eigen::Vector3d(5.0, -17.0, 4.0) + Eigen::Vector3d(0.4, -1.2, 0.3));
-  };
-  SceneForms forms;
-  forms.inLiver = inEllipsoid;
-  forms.u_mre_mm = [=](const Eigen::Vector3d& p) { return hoist(p, mreOverAtlas); };
-  forms.u_atlas_mm = [=](const Eigen::Vector3d& p) { return hoist(p, 1.0); };
-  forms.brightness = [=](const Eigen::Vector3d& p) -> float {
+  }
+
+  float brightness(const Eigen::Vector3d& p) const {
     const Eigen::Vector3d body = (p - Eigen::Vector3d(-30, 10, 0)).cwiseQuotient(Eigen::Vector3d(128, 84, 400));
     if (body.squaredNorm() > 1.0) return 0.0F;
     if (body.squaredNorm() > 0.88) return 330.0F;  // fat
-    if (!inEllipsoid(p)) {
+    if (!holds(p)) {
       const double spine = (p - Eigen::Vector3d(5, 68, p.z())).norm();
       return spine < 18.0 ? 210.0F : static_cast<float>(90.0 + 25.0 * std::sin(p.x() / 9.0) * std::cos(p.y() / 7.0));
     }
@@ -107,29 +102,48 @@ inline render::RetractionScene retractionScene(double mreOverAtlas, int inPlane 
       if ((p - t.a - s * (t.b - t.a)).norm() < (1 - s) * t.ra + s * t.rb) return 340.0F;
     }
     return static_cast<float>(200.0 + 6.0 * std::sin(p.x() / 5.0) * std::sin(p.y() / 4.0 + p.z() / 6.0));
-  };
-  render::RetractionScene scene = sceneFrom(grid, forms);
-  for (const Tube& t : tubes) appendTube(scene.vesselSurface, t.a, t.b, t.ra, t.rb);
+  }
 
-  constexpr int meridians = 64, parallels = 40;
-  scene.liverSurface.vertices_lps_mm.resize(3, meridians * (parallels + 1));
-  scene.liverSurface.triangles.resize(3, 2 * meridians * parallels);
-  for (int s = 0; s <= parallels; ++s)
-    for (int n = 0; n < meridians; ++n) {
-      const double theta = 3.14159265358979 * s / parallels, phi = 2.0 * 3.14159265358979 * n / meridians;
-      const Eigen::Vector3d d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
-      const double b = 0.18 * d.x();  // r² + b r = 1 on the surface
-      scene.liverSurface.vertices_lps_mm.col(s * meridians + n) =
-          centre + (0.5 * (-b + std::sqrt(b * b + 4.0)) * d).cwiseProduct(radii);
-    }
-  int column = 0;
-  for (int s = 0; s < parallels; ++s)
-    for (int n = 0; n < meridians; ++n) {
-      const int a = s * meridians + n, b = s * meridians + (n + 1) % meridians;
-      scene.liverSurface.triangles.col(column++) = Eigen::Vector3i(a, a + meridians, b);
-      scene.liverSurface.triangles.col(column++) = Eigen::Vector3i(b, a + meridians, b + meridians);
-    }
-  scene.retractorPoint_lps_mm = contact;
+  anatomy::TriangleMesh surface() const {
+    constexpr int meridians = 64, parallels = 40;
+    anatomy::TriangleMesh mesh;
+    mesh.vertices_lps_mm.resize(3, meridians * (parallels + 1));
+    mesh.triangles.resize(3, 2 * meridians * parallels);
+    for (int s = 0; s <= parallels; ++s)
+      for (int n = 0; n < meridians; ++n) {
+        const double theta = 3.14159265358979 * s / parallels, phi = 2.0 * 3.14159265358979 * n / meridians;
+        const Eigen::Vector3d d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+        const double b = 0.18 * d.x();  // r² + b r = 1 on the surface
+        mesh.vertices_lps_mm.col(s * meridians + n) =
+            centre + (0.5 * (-b + std::sqrt(b * b + 4.0)) * d).cwiseProduct(radii);
+      }
+    int column = 0;
+    for (int s = 0; s < parallels; ++s)
+      for (int n = 0; n < meridians; ++n) {
+        const int a = s * meridians + n, b = s * meridians + (n + 1) % meridians;
+        mesh.triangles.col(column++) = Eigen::Vector3i(a, a + meridians, b);
+        mesh.triangles.col(column++) = Eigen::Vector3i(b, a + meridians, b + meridians);
+      }
+    return mesh;
+  }
+};
+
+/// The synthetic liver, hoisted; the MRE state moves further than the atlas state (a softer organ) or less, by scale.
+inline render::RetractionScene retractionScene(double mreOverAtlas, int inPlane = 128) {
+  image::Grid grid;
+  const double spacing = 210.0 / inPlane;
+  grid.size = {inPlane, inPlane * 4 / 5, 40};
+  grid.spacing_mm = {spacing, spacing, 4.0};
+  grid.origin_lps_mm = {-135.0, -75.0, -80.0};
+  const SyntheticLiver liver;
+  render::RetractionScene scene =
+      sceneFrom(grid, {.inLiver = [&](const Eigen::Vector3d& p) { return liver.holds(p); },
+                       .brightness = [&](const Eigen::Vector3d& p) { return liver.brightness(p); },
+                       .u_mre_mm = [&](const Eigen::Vector3d& p) { return liver.hoisted_mm(p, mreOverAtlas); },
+                       .u_atlas_mm = [&](const Eigen::Vector3d& p) { return liver.hoisted_mm(p, 1.0); }});
+  for (const auto& t : liver.tubes) appendTube(scene.vesselSurface, t.a, t.b, t.ra, t.rb);
+  scene.liverSurface = liver.surface();
+  scene.retractorPoint_lps_mm = liver.contact;
   scene.retractorAxis = Eigen::Vector3d(1.0, 0.1, 0.0).normalized();
   scene.caption = "Synthetic liver. Mesh-free, 200 frames, linear; hoisting force = liver weight, transverse plane.";
   return scene;

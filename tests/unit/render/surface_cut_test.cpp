@@ -93,7 +93,8 @@ TEST(SliceOverlay, theLiverInContactEndsAtItsSurface) {
     if (picture.rgb[n] == 140) ++steel;
   }
   EXPECT_NEAR(static_cast<double>(steel) / 16.0, 300.0 + std::numbers::pi * 25.0, 15.0) << "the bar, where it ends";
-  EXPECT_NEAR(static_cast<double>(lit) / 16.0, 300.0 + std::numbers::pi * 25.0, 15.0) << "not the 30 mm × 12 mm of the cells";
+  EXPECT_NEAR(static_cast<double>(lit) / 16.0, 300.0 + std::numbers::pi * 25.0, 15.0)
+      << "not the 30 mm × 12 mm of the cells";
 }
 
 }  // namespace

@@ -94,8 +94,8 @@ TEST(Warp, foldsStayFinite) {
   for (const float v : warp(noise(grid), u, grid).values) EXPECT_TRUE(std::isfinite(v));
 }
 
-/// Tissue stretched to three times its length, and a fold of what lies beside it over it: iterations for the inverse do not
-/// converge or end in the fold, the cells hold every place.
+/// Tissue stretched to three times its length, and a fold of what lies beside it over it: iterations for the inverse do
+/// not converge or end in the fold, the cells hold every place.
 TEST(Warp, materialThatIsStretchedOrFoldedIsFoundByItsCells) {
   image::Grid grid = obliqueGrid();
   image::ScalarVolume mask(grid);

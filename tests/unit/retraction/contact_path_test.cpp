@@ -18,18 +18,28 @@ TEST(ContactPath, ForcesLieOnTheWay) {
   EXPECT_EQ(forceAt({}, 3), 0);
 }
 
-TEST(ContactPath, TheCapacityHasATravelOfItsOwn) {
+TEST(ContactPath, ItIsBroughtToTheAnswer) {
   RigidContact c;
+  c.path = {{0, 0}, {4, 2}, {10, 8}, {12, 9}};
+  c.hoist = {0, -1, 0};
+  c.force_N = {0.5, -5, 0};
+  c.travel_mm = 14;  // coarse cells bear 5 N at 7 mm: half of that
+  EXPECT_DOUBLE_EQ(answersForceAt(c, 14), 5);
+  EXPECT_DOUBLE_EQ(answersForceAt(c, 8), 2);
+  EXPECT_DOUBLE_EQ(answersForceAt(c, 11), 3.5);
+  c.force_N = {0, -20, 0};  // more than the path bears: as it is
+  EXPECT_EQ(answersForceAt(c, 4), 2);
+}
+
+TEST(ContactPath, ABarThatPassedALargerForceIsToldWhere) {
+  RigidContact c;
+  c.asked_mm = 20;
   c.path = {{0, 0}, {4, 2}, {10, 8}, {12, 6}, {20, 3}};
-  c.travel_mm = 20;
-  c.capacity_N = 8;
-  EXPECT_EQ(travelAtCapacity(c), 10) << "not where the bar ended";
-  c.capacity_N = 5;  // the answer's cells bear less than the path's
-  EXPECT_EQ(travelAtCapacity(c), 7);
-  c.capacity_N = 9;  // or more
-  EXPECT_EQ(travelAtCapacity(c), 10);
-  c.path.clear();
-  EXPECT_EQ(travelAtCapacity(c), 20);
+  ASSERT_TRUE(passedOnTheWay(c));
+  EXPECT_EQ((*passedOnTheWay(c))[0], 10);
+  EXPECT_EQ((*passedOnTheWay(c))[1], 8);
+  c.path.back()[1] = 7.5;
+  EXPECT_FALSE(passedOnTheWay(c));
 }
 
 TEST(Offered, SaysWhatRefusesAndWhatToDo) {

@@ -35,8 +35,7 @@ Polygon shrunk(const Polygon& p, double by_mm) {
   Polygon out = p;
   const Eigen::Vector3d centre = p.points_lps_mm.rowwise().mean();
   for (Eigen::Index v = 0; v < p.points_lps_mm.cols(); ++v)
-    for (int a = 0; a < 2; ++a)
-      out.points_lps_mm(a, v) += by_mm * (p.points_lps_mm(a, v) > centre[a] ? -1.0 : 1.0);
+    for (int a = 0; a < 2; ++a) out.points_lps_mm(a, v) += by_mm * (p.points_lps_mm(a, v) > centre[a] ? -1.0 : 1.0);
   return out;
 }
 

@@ -22,7 +22,8 @@ std::filesystem::path sceneFile(const test::TemporaryFolder& folder, const std::
     "supports": [ { "region": {"surface":"posterior"}, "kind": "spring", "stiffness_kPa_per_mm": 0.1 } ],
     "loads": [ { "kind": "retractor", "diameter_mm": 20, "length_mm": 60, "at": [30, 80, 30], "force": 3, "contact": ")" +
                              contact + R"(", "direction": [0, -1, 0] } ],)" + compare + R"(
-    "kinematics": ")" + (contact == "rigid" ? "hyperelastic" : "linear") + R"(", "model": { "kind": "fem-hex" } })";
+    "kinematics": ")" + (contact == "rigid" ? "hyperelastic" : "linear") +
+                             R"(", "model": { "kind": "fem-hex" } })";
   return file;
 }
 

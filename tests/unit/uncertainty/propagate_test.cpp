@@ -121,9 +121,8 @@ TEST(Propagate, IntervalsHoldTheFiguresAndWhatTheFirstOrderMissesIsTold) {
   ASSERT_TRUE(u.checks[0].found);
   EXPECT_GT(u.checks[0].change_mm, 0.1);
   // A bar that moves by 5 mm along itself leaves the first order: its end lies elsewhere on the block.
-  const bool told = std::any_of(u.diagnostics.begin(), u.diagnostics.end(), [](const Diagnostic& d) {
-    return d.code == DiagnosticCode::UncertaintyNotLinear;
-  });
+  const bool told = std::any_of(u.diagnostics.begin(), u.diagnostics.end(),
+                                [](const Diagnostic& d) { return d.code == DiagnosticCode::UncertaintyNotLinear; });
   EXPECT_EQ(told, u.checks[0].missed_mm > 0.3 * u.checks[0].change_mm);
   // The clamped block was not measured by an outline.
   EXPECT_THROW(sourceOf(u, SourceKind::Outline), std::runtime_error);

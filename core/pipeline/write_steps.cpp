@@ -1,0 +1,61 @@
+// The steps of a run that write into its folder.
+#include "base/error.h"
+#include "exchange/sofa.h"
+#include "pipeline/detail/record.h"
+#include "pipeline/detail/step_works.h"
+#include "retraction/offered.h"
+
+namespace glisson::pipeline::detail::works {
+
+void openFolder(RunState& s) {
+  const std::filesystem::path& folder = s.options.output;
+  s.writer.emplace(folder, s.result.files);
+  s.claim.emplace(folder);
+  // The record comes last: without it, nobody takes what a killed run has left for a result, nor for a former one's.
+  for (const char* name : {"run.json", "report.html", "report.pdf"}) std::filesystem::remove(folder / name);
+}
+
+void writeDisplacements(RunState& s, const Progress&) {
+  s.writer->displacementFields(s.result);
+}
+
+void writeTables(RunState& s) {
+  const RunResult& r = s.result;
+  if (s.scene.outputs.vessels && s.needs.vessels) s.writer->vessels(s.scene, r, s.vessels);
+  if (r.stiffness) s.writer->stiffness(*r.stiffness);
+  if (s.needs.pictures) s.pictures = s.writer->pictureData(r);
+}
+
+void writePictureData(RunState& s, const Progress&) {
+  s.writer->pictureFile(*s.pictures);
+}
+
+void writeSlices(RunState& s, const Progress&) {
+  s.writer->sliceOverlays(*s.pictures, s.options.palette);
+  s.writer->charts(*s.pictures);
+}
+
+void writeOverlays3D(RunState& s, const Progress&) {
+  try {
+    s.writer->overlays3D(*s.pictures, s.options.palette);
+  } catch (const RenderUnavailable& e) {
+    // Everything but these pictures is there already; losing it for want of OpenGL would be worse than saying so.
+    s.result.warnings.push_back(std::string("no 3-D picture was drawn: ") + e.what());
+    s.log.leaveOut(StepId::Overlay3D, "it cannot be drawn here");
+  }
+}
+
+void writeSofa(RunState& s, const Progress&) {
+  RunResult& r = s.result;
+  const exchange::SofaExport node = exchange::writeSofa(s.options.output / "sofa", r.model, s.scene.setup,
+                                                        {s.vessels.centreline_lps_mm, s.vessels.edges});
+  r.files.insert(r.files.end(), node.files.begin(), node.files.end());
+  for (const std::string& n : node.notes) r.warnings.push_back("SOFA: " + n);
+  r.diagnostics.add(retraction::notExportable(s.scene.setup));
+}
+
+void writeReport(RunState& s, const Progress&) {
+  s.writer->report(s.scene, s.result, inputDigests(s.scene), s.options.palette);
+}
+
+}  // namespace glisson::pipeline::detail::works
