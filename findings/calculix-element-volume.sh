@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # CalculiX prints the volume of an element (EVOL) as it was before the load, also with NLGEOM, step after step.
 #
 # Expected: "*EL PRINT" with EVOL prints the volume at the time that stands above it, next to stress and strain of that time. The

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # CHOLMOD notices that a matrix is not positive definite only when the matrix is large enough; and even then it returns "success".
 #
 # Expected: a Cholesky factorization fails on a matrix that is not positive definite, so the loss of stability of a loaded structure

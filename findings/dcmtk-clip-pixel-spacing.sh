@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # DCMTK's dcmscale cuts a region out of an image and says that its pixels have grown.
 #
 # Expected: "dcmscale +C left top width height" cuts a rectangle out and, since nothing is scaled, leaves Pixel Spacing alone. One

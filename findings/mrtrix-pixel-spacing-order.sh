@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # MRtrix3 takes the first value of DICOM's Pixel Spacing for x. It is the distance between rows, which is y.
 #
 # Expected: mrinfo and mrconvert read an MR series as dcm2niix does. Pixel Spacing (0028,0030) is "between rows \ between columns"

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # One number in a NIfTI header, the intent, decides whether ITK turns a displacement round: 1006 yes, 1007 no.
 #
 # Expected: NIfTI is RAS, ITK is LPS. A reader either turns the components of a vector with the axes or leaves them alone; the intent

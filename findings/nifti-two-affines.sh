@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # NIfTI with two affines: the two xform codes, not the affines, decide which one ITK and nifti-reader-js (NiiVue) use.
 #
 # Expected: where sform and qform disagree, a reader has a fixed favourite. nibabel documents it: the sform if its code is not 0. ITK

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # A DICOM segmentation that leaves empty slices out: one file, two ITK readers, thirty times the volume between them.
 #
 # Expected: a SEG states its pixel spacing and slice spacing once for all frames, and the position of every frame. A reader that

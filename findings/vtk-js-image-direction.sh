@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # vtk.js reads the Direction of a .vti file by columns, VTK writes it by rows: an oblique image turns the other way.
 #
 # Expected: VTK's XML image format has one meaning; what VTK and ParaView write, vtk.js shows in the same place. Both belong to the

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Holds functions to 60 lines and files to 400: what is longer must stand in packaging/long-code-allowed.txt, and no longer than there.
 
 usage: code_lengths.py            what breaks the rule; exit code 1 where something does

@@ -1,4 +1,6 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+
 # Starts the program of the same name from the tree that this file lies in: where the system has no drivers, plugins or fonts of
 # its own, those of the tree are used.
 here=$(dirname -- "$(readlink -f -- "$0")")

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Records what a program computes, so that a change which must not change results can be held against the program before it.
 
 usage: record_runs.py CLI FOLDER [--only REGEX]     runs a set of scenes with CLI (glisson-cli), writes FOLDER/record.json

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The command line: parses, calls one verb, turns exceptions into one line and an exit code.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The reader process: answers on the socket that its parent gave it (core/dicom/reader_service.h).
 #include <sys/socket.h>
 

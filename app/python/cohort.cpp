@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Many patients: synthetic ones, and the studies over a folder of them.
 #include "cohort/cohort.h"
 

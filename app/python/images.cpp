@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Geometry and voxel volumes: affines in LPS and RAS, values as arrays without a copy.
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>

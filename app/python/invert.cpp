@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Raw phase images to the complex shear modulus.
 #include "pipeline/invert.h"
 

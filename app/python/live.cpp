@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A liver that follows the tool, frame by frame.
 #include "retraction/live.h"
 

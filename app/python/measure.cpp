@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Stiffness statistics of a region of interest.
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>

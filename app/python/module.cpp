@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The Python module glisson._core: wiring only, as in the other programs. glisson/__init__.py names what is public.
 #include "base/parallel.h"
 #include "base/version.h"

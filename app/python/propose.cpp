@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A first outline of an organ from one point inside it.
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>

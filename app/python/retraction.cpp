@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What one simulated retraction gives, and the difference of two.
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Everything that a scene needs, in one call.
 #include "pipeline/run.h"
 

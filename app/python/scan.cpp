@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What lies in a folder of DICOM files.
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Scenes, and the plan of one.
 #include "scene.h"
 

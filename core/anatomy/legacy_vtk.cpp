@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What a legacy VTK file announces, against what it can hold: VTK's reader believes every count.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // OBJ, STL and Gmsh, read without a library: VTK's readers of these bring its rendering along.
 #include <Eigen/Geometry>
 #include <algorithm>

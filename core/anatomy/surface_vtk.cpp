@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Legacy VTK and VTK XML files, through VTK's readers.
 #include <vtkCellArray.h>
 #include <vtkCellTypes.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The files of a cohort that a program reads.
 #include "cohort/detail/summary_files.h"
 

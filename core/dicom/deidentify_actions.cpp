@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The rows of PS3.15 table E.1-1 that occur in MR, Enhanced MR, RT Structure Set, Segmentation, Parametric Map, SR and
 // Secondary Capture, and a rule for the rest: what is not listed here as technical and could hold words, names or dates
 // is removed. So the table can be shorter than the standard's and removes more.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "exchange/slicer_scene.h"
 
 #include "base/xml_text.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Moving least squares: the element-free Galerkin shape functions.
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the pictures show of a rigid bar: surface, displacement and pressure on it, and the way of the bar.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The steps of a run that write into its folder.
 #include "base/error.h"
 #include "exchange/sofa.h"

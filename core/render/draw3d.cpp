@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The part of the program that draws in 3-D off screen; everything that needs VTK's rendering or OpenGL is in here.
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "render/offscreen_window.h"
 
 #include <vtk_glew.h>

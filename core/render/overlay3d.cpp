@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The program's side of 3-D pictures: loads the part that draws them when the first one is asked for.
 #include <dlfcn.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "render/detail/scene3d_parts.h"
 
 #include <vtkActor.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "render/detail/slice_composer.h"
 
 #include <algorithm>

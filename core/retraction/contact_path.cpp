@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "retraction/contact_path.h"
 
 #include "retraction/simulate.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The one crossing from mm, kPa and LPS to m, Pa and the grid's own axes, for supports and loads.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Beams at every Poisson's ratio, own weight, conjugate gradients stopped at 200.
 #include "base/quantity.h"
 #include "mechanics/measures.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A soft lobe on a rigid bar: poses, stiffnesses, Poisson's ratios, with and without capsule. Each place bears the
 // weight or the bar slips, and the largest force is said.
 #include <algorithm>

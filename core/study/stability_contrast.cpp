@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Stiff and soft together: inclusions, random moduli, bars in series and side by side, spheres with closed forms.
 #include <limits>
 #include <numbers>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What must hold always: symmetry, zero modes, balance, the same bits with any threads, any scale, any size.
 #include <Eigen/Eigenvalues>
 #include <cstring>

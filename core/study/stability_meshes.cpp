@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Tetrahedra and mesh-free sites: a known stress, flat and inverted elements, sites that cannot carry a model.
 #include <Eigen/QR>
 #include <numbers>

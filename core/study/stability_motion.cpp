@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Rigid motions, the oscillator, steps of any size, and what dynamics must tend to.
 #include <limits>
 #include <memory>

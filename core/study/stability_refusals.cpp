@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What cannot be used is refused in words; what can is used by a stated rule.
 #include <limits>
 

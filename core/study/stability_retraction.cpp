@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Whole scenes: comparison with the atlas, the retractor's contact, results that must not be drawn.
 #include "pipeline/run.h"
 #include "retraction/simulate.h"

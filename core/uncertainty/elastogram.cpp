@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "uncertainty/elastogram.h"
 
 #include <algorithm>

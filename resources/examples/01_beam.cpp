@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A cantilever of voxels under a body force, against beam theory.
 //
 //     z                                               E = 12 kPa, nu = 0.45

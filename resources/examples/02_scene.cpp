@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A scene made by code, and a parameter study with it: how far does a rigid bar lift a block until it bears 1 N?
 //
 //          posterior: springs of 0.1 kPa/mm (a Winkler foundation)

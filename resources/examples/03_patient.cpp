@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A patient from DICOM to the difference between two predictions. The patient is a synthetic one whose truth is known.
 //
 // usage: 03_patient FOLDER     FOLDER: where the patient's files go; exit code 0 if the measured stiffness is right

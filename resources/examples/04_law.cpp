@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A law and an element of one's own (stiffening_law.h on trilinear boxes): a cube of 64 cells is pulled to 1.3 of its
 // length by Newton's method, with the project's assembled matrix and its factor.
 //

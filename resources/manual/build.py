@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The manual: Markdown pages to HTML (pandoc), and to one PDF (weasyprint) where asked for.
 
 usage: build.py OUTPUT [--pdf]      writes OUTPUT/html/*.html, and OUTPUT/glisson-manual.pdf with --pdf

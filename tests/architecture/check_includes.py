@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Who may include whom. Reads every include of core/, ui/ and app/ and reports what the rules forbid.
 
 usage: check_includes.py ROOT            prints violations, exits 1 where there are any

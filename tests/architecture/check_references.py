@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every reference key quoted in core/ stands in core/REFERENCES.bib.  usage: check_references.py ROOT"""
 import pathlib
 import re

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Products K u of the matrix-free voxel operator against the memory bandwidth of the machine.
 
 #include <benchmark/benchmark.h>

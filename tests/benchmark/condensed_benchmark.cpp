@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Online part of the condensed model: one dense product per evaluation, and one reduced implicit Euler step.
 
 #include <benchmark/benchmark.h>

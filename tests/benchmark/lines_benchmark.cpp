@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Outlines over an image: segments cut to the view on one halo (views/line_work) beside Qt's stroker on whole paths.
 
 #include <benchmark/benchmark.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // One static solve to 1e-6 from nothing: set-up, iterations, time and memory by solver, size and Poisson's ratio.
 
 #include <benchmark/benchmark.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // One implicit Euler step: of the mesh-free frames, and of the voxel FEM by solver and time step.
 
 #include <benchmark/benchmark.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Whether 95 % intervals hold 95 %: the linearised spread of synthetic patients against full solves of resampled maps,
 // outlines, loads and supports, and against the patients' own truth. By hand:
 //   benchmark_uncertainty PATIENTS DRAWS CELL_MM [SEED]

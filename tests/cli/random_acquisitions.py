@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Made-up elastography acquisitions drawn at random, with the answer known: vendors, scales and units, padding, what
 pairs the products of one acquisition, what is missing, orientations, styles of outlines."""
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Small made-up elastography acquisitions, structure sets and segmentations, written with pydicom: 16 x 16 pixels of
 4 mm, slices 8 mm apart. The region of most tests, x -16 to 16 and y -12 to 12 mm, holds 8 x 6 = 48 pixels of a slice."""
 import hashlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the command-line tests share: running the program, minimal NIfTI files. Standard library only."""
 import gzip
 import json

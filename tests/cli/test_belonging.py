@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """From files to numbers: what belongs together, which scale holds, which image was outlined. Every answer is right, or
 its doubt is told."""
 import pathlib

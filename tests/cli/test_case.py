@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A case as the workstation saves it, run by the command line; and what is said where it is not whole."""
 import hashlib
 import json

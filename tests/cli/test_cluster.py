@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The recipes of resources/cluster give the bytes of one machine; skipped where their scheduler is not installed."""
 import os
 import pathlib

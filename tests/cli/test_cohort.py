@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The cohort as a researcher runs it: several patients, one of them bad; killed and resumed; sharded and merged."""
 import hashlib
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is there of a series, and objects in several pieces or newer forms: whole, or said."""
 import json
 import subprocess

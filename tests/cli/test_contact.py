@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The retractor as a rigid bar, through the command line: figures, slip, drives, and what is withheld."""
 import math
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The command line as the contract has it: scenes on boxes and masks against closed forms, errors, exit codes."""
 import json
 import unittest

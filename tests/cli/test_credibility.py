@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The credibility page: six topics, every figure computed now and given again by the command beside it, nothing hidden."""
 import json
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """DICOM as it comes from disks and servers: archives, DICOMDIR, mosaics, thumbnails, roles by hand, mismatched series."""
 import pathlib
 import shutil

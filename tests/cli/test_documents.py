@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every command printed in README.md and in the rooms' README files is run, in order, in a copy of nothing but the build."""
 import os
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Standard files out, read back by other people's programs; and a patient called CANARY of whom nothing may be seen."""
 import json
 import os

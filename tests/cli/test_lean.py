@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """No picture, no OpenGL; what is left out changes no bit of what is asked for; pictures and runs can be made again."""
 import hashlib
 import json

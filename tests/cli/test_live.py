@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The retraction over OpenIGTLink, read byte by byte with nothing but the standard library."""
 import itertools
 import json

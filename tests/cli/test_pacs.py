@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A real DICOM server (Orthanc) on loopback: echo, find, get, move, send; our receiver against storescu and hostile callers."""
 import contextlib
 import json

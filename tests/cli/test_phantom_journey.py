@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A synthetic patient from DICOM to overlays with no display; and a patient called PHI^CANARY who must not be seen."""
 import json
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Elastography drawn at random (vendors, units, padding, pairings, gaps, orientations, styles of outlines) with a known
 answer: each is measured right, and what is doubtful about it is told. GLISSON_RANDOM_CASES: how many (10,000 in all)."""
 import concurrent.futures

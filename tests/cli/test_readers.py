@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Inversion of raw phase, agreement of readers, a proposed outline, and what measure leaves out."""
 import math
 import pathlib

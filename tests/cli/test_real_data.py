@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Real data written by others: GE MR750 DICOM, odd series, an abdominal MR with its liver mask. Skipped where absent."""
 import os
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a run says of itself: codes and values beside the sentences, each fact once, nothing passed over in silence."""
 import json
 import math

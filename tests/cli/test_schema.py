@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The published scene schema and the program agree: what one takes the other takes, what one refuses the other refuses."""
 import copy
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Outlines and surfaces as sets of points, and places that two programs read differently: right, or said."""
 import json
 import math

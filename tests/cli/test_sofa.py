@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The exported SOFA node, read by a reader of its own: elements assembled anew, displacement compared with `run`."""
 import itertools
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Surfaces and volume meshes as regions: what is exported comes back as the same liver."""
 import json
 import pathlib

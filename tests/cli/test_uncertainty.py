@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How sure: intervals, probability and sources of a run, in JSON, vessels.csv and the report; nothing of them unasked."""
 import csv
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Situations beside those that were reported: other words, units, headers and outlines. Each is right, refused, or its
 doubt is told."""
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Small DICOM objects made by the tests themselves: slices, multi-frame images, structure sets, segmentations."""
 import hashlib
 

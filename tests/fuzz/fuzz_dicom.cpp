@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // libFuzzer target: layout, header and stored pixels of one file, all in this process, with the same code as in the
 // reader process. Built with clang's -fsanitize=fuzzer,address.
 #include <unistd.h>

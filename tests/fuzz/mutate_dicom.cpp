@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Scans and reads mutated DICOM files: no crash, none over 2 s, memory within 256 MiB + 3 × the file. Usage:
 //   mutate_dicom <count> <seed> <folder> [<folder> ...]
 // Files of the folders are the originals (1 MiB at most each; larger ones are left out). Exit code 0: all is well; 1: a

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the libFuzzer target for some seconds on small real files: run_libfuzzer.py PROGRAM SECONDS FOLDER ...
 
 What is found is left in the working folder as crash-..., timeout-... or oom-..., as libFuzzer does."""

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A rigid bar in the window, bent to a hook: before the run, after it, and moved by the mouse.
 #include <QLabel>
 #include <QLineF>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every text of the window has its German: what lupdate finds in the sources, the table of keys and gestures, the names
 of undo steps, what the outline tools say, and the line about research use, against the catalogue.
 

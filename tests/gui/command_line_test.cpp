@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What was done with the mouse, run again by `glisson-cli run case.json`: the same numbers and the same files, to the
 // last bit.
 #include <QComboBox>

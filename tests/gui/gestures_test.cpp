@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Gestures and keys through real events, on one window with the synthetic patient; stalls; recovery.
 #include <QDialog>
 #include <QMenu>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Squares drawn with real mouse events on shifted, anisotropic, oblique and flipped grids: the mask holds exactly the
 // voxels whose centres lie inside.
 #include <QSignalSpy>

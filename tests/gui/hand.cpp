@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A reader's hand on the real window: opens the case below ROOT and makes gestures with real events until it has made
 // COUNT of them, telling on stdout when each is done, with a digest of all outlines. Started, and killed, by
 // killed_test. Not installed.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // From a DICOM folder to the overlay, as a hand would do it.
 #include <QComboBox>
 #include <QDoubleSpinBox>

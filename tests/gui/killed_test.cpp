@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The program is killed (SIGKILL) at random moments while a reader draws, and while the case is saved: at most the
 // gesture in progress is lost, and the case on disk reads as before or as after.
 #include <signal.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What is opened, and that nothing of it is lost or passed over: roles, questions about the elastogram, the journal and
 // what it brings back, what is asked before anything goes.
 #include <QAbstractButton>

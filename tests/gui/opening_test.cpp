@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Volumes, masks and maps by themselves and together; patients, studies and series; what a folder offers; what is
 // refused.
 #include <QDialog>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What is told about outlines while they are drawn and accepted, and what copies of them hold.
 #include <QComboBox>
 #include <QLabel>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Three linked planes: reformats, the crosshair, the cut of what counts, the map over the MRI, one view alone.
 #include <QApplication>
 #include <QLabel>

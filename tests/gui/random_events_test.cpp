@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A long day of a reader who presses everything: random events on the images, the panels, all pages and menus. Nothing
 // may crash, hang, grow or lose the way back. GLISSON_RANDOM_EVENTS=100000 makes it the long run, GLISSON_RANDOM_SEED
 // another day.

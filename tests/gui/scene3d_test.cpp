@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The 3-D views through real events, on one window with the synthetic patient: what they show, what the mouse places
 // and chooses in them, and that the window answers while they draw.
 #include <QAction>

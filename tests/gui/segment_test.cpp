@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The Segment page in detail: what is shown first, what is told, what the wheel leaves alone, and work without a mouse.
 #include <QAction>
 #include <QCheckBox>

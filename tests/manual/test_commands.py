@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every command printed in the manual runs, page by page in the order of the manual, in one folder with nothing but the clone's
 resources/ in it. A page may use what the tutorial made. Blocks marked `sh pacs` need a DICOM server, which is started here."""
 import contextlib

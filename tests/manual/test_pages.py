@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The manual's pages: every diagnostic has its advice, every include and link leads somewhere, HTML and PDF can be built."""
 import importlib.util
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Another project finds the installed libraries with find_package(Glisson), links one room, and gets a right answer."""
 import os
 import pathlib

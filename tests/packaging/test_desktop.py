@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What desktops read is valid by their own tools, and says the same everywhere."""
 import configparser
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Manual pages and bash completion come from the program's own options: complete, and free of faults."""
 import os
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The logic of the scripted module for 3D Slicer with plain Python: the program is run, results become (stand-in) nodes."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`--xml` describes verbs as 3D Slicer's ModuleDescriptionParser takes them, and what Slicer then calls is accepted."""
 import os
 import pathlib

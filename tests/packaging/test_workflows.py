@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The forges' workflow files: well formed, and they call programs of this repository that are there."""
 import os
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Arrays are core's own memory, keep their owner alive, and lie where their affines say."""
 import gc
 import tempfile

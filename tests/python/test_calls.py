@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Progress, cancelling, Ctrl+C, threads, and errors as exceptions."""
 import locale
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The three notebooks run as scripts; each checks its own numbers. Their cells are those of the percent format."""
 import os
 import pathlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the module computes is what the command line computes, to the last bit."""
 import hashlib
 import json

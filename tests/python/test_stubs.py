@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The stubs are those of the module: every name, every argument; the examples pass a type checker; everything says what it is."""
 import ast
 import inspect

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Compare: vessels beyond 5 mm, the box plot, what is said of trust, and the export.
 #include <QCheckBox>
 #include <QComboBox>

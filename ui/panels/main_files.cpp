@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Opening, saving, recent ones, recovery, drag and drop.
 #include <QDragEnterEvent>
 #include <QFileDialog>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The menus of the window.
 #include <QAction>
 #include <QActionGroup>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the window asks: about work that is not saved or would be replaced, and about the elastogram.
 #include <QComboBox>
 #include <QDialog>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What keys, buttons and menus of the Segment page do.
 #include <QKeyEvent>
 #include <cmath>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The menu over an outline, its properties, and copying to other slices.
 #include <QInputDialog>
 #include <QMenu>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Where the views of the Segment page lie: two beside each other, the two other planes below them, or one alone; the
 // crosshair that links them, and the map over the MRI.
 #include <QGuiApplication>

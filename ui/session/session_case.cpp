@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The case on disk: contours.json, scene.json, and where the images are.
 #include <QCoreApplication>
 #include <QEventLoop>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The images: which series are shown and measured, and what only the reader can answer about them.
 #include <algorithm>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Opening: folders, cases, the synthetic patient, what a crash left behind; roles and answers.
 #include <algorithm>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Interpolating between drawn slices, and accepting what was interpolated.
 #include "base/error.h"
 #include "commands/replace_contours.h"

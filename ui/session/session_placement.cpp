@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Bar, hoist and holds laid by hand, with an undo of their own: Ctrl+Z takes back what the page shows.
 #include "session/model_preview.h"
 #include "session/session.h"

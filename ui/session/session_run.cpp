@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Running: the case is saved into the work folder, then run from there by what the command line uses for a case too.
 #include "base/error.h"
 #include "pipeline/result_file.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Marks of slices, what is still to be done, copies to other slices, and a second reader.
 #include <algorithm>
 #include <iterator>

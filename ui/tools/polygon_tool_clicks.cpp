@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Clicks, keys and what parks an outline.
 #include <algorithm>
 #include <numeric>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The rules behind the gestures: what is under the mouse, what closes, what is refused.
 #include <algorithm>
 #include <cmath>

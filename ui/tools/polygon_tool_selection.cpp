@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Acts on the selection: nudge, split, trim, kind; and the tool in hand.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "views/bar_actor.h"
 
 #include <vtkActor.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the mouse does in a 3-D view, and what is drawn over its picture.
 #include <QMouseEvent>
 #include <QPainter>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A 3-D view without a mouse: what the drags do, in steps.
 #include <QKeyEvent>
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What lies over a slice from another grid: a map in its colours, and the cut of a region.
 #include <algorithm>
 #include <cmath>

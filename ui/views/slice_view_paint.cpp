@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How a slice view draws: image, hatching, contours, cursor, letters and bars.
 #include <QPainter>
 #include <QPixmapCache>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Patient-specific biomechanics for image-guided liver surgery. Research use only, not for clinical use.
 
 The functions are the verbs of glisson-cli, on the same core, with the same numbers to the last bit:

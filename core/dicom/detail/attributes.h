@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 // DCMTK seen through a few strict functions; for .cpp files of this room only.

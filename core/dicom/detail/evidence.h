@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 // The evidence that series come from one elastography acquisition; for acquisitions.cpp only.

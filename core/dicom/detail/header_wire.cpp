@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "dicom/detail/header_wire.h"
 
 #include "dicom/detail/wire.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "dicom/detail/jpeg2000.h"
 
 #include <openjpeg.h>

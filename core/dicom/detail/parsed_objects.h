@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 // Structure sets and segmentations as they are parsed, here or in a reader process, and as messages of the latter.

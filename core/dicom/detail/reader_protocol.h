@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 // What goes between a program and its reader process: messages of a kind, a length and that many bytes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 // The format in which a reader process answers. Both ends run on one machine and come from one build; what arrives is

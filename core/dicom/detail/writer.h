@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 // Writing data sets with DCMTK; for .cpp files of this room only, after DCMTK's own headers.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "mechanics/contact/contact_solve.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // How a level becomes the next coarser one, and the coarsest a dense matrix.
 #include <Eigen/LU>
 #include <algorithm>

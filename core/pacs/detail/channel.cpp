@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "pacs/detail/channel.h"
 
 #include <dcmtk/config/osconfig.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Glisson in 3D Slicer: an outline drawn here, a retraction computed by glisson-cli, its results as nodes."""
 import pathlib
 import tempfile

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Shapes with closed forms, on lattices as scanners write them: anisotropic, oblique, mirrored, thick-sliced.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Surfaces and volume meshes from files, and the voxels inside them.
 #include "anatomy/surface_file.h"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Vessels of synthetic patients against their true centre lines, and of real images.
 #include <gtest/gtest.h>
 

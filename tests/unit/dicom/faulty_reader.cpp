@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A reader process that misbehaves where a file tells it to: what a library taken over by a hostile file might do.
 #include <unistd.h>
 

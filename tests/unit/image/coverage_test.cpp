@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A mask in other cells: what a cell is covered by is exact, and a body of many cells keeps its volume, wherever the
 // cells lie and whichever way its faces look.
 #include "image/coverage.h"

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A rigid, frictionless bar against bodies in large deformation.
 #include "mechanics/contact/contact_solve.h"
 

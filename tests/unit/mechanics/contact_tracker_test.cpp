@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A body that follows a bar in the hand, frame by frame.
 #include "mechanics/contact/contact_tracker.h"
 

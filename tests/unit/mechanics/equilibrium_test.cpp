@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What small changes of a contact problem do to its answer: the exact tangent against full solves.
 #include "mechanics/contact/equilibrium.h"
 

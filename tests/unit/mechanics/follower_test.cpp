@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Loads that follow their faces, beds that only press, and tethers.
 #include "mechanics/contact/follower_loads.h"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What linear theory misses, against answers of large-deformation solvers and closed forms.
 #include "mechanics/linear_gap.h"
 

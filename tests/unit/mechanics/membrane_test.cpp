@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A skin on the surface of a body: tension in its plane, folds instead of compression.
 #include "mechanics/contact/membrane.h"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The multigrid's bounds, its definiteness and its iterations over elements, Poisson's ratios, shapes and contrasts.
 #include "mechanics/multigrid.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "mechanics/voxel_operator.h"
 
 #include <gtest/gtest.h>

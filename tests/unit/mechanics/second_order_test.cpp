@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Newmark's method and generalised alpha against closed forms.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The solver of implicit time steps: its starts from earlier solutions, and its error beside that of the time step.
 #include "mechanics/step_solver.h"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Tetrahedra against a manufactured solution: u = φ v, φ = sin πx sin πy sin πz on the unit cube, zero on its surface.
 #include <gtest/gtest.h>
 

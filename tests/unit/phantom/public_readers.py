@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reads a written phantom patient with public tools only (pydicom, dcm2niix) and compares with its truth.
 
 usage: public_readers.py PATIENT_FOLDER        exit code 77: the tools are not installed

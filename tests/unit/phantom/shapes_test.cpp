@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Livers of odd shapes: each is odd in its own way, in one piece, with room for its vessels.
 #include <gtest/gtest.h>
 

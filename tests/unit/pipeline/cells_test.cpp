@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The body in cells larger than the mask's voxels has the mask's volume, and with it its weight.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Every model kind through a whole run: what the plan says beforehand, what the record says afterwards.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

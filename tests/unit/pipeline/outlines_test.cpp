@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A reader outlines the liver on some slices only: what lies between is interpolated by shape, once, for the body and
 // for the elastogram alike, and the record says so.
 #include <gmock/gmock.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the plan says of Delaunay tetrahedra before there are any, against those that are made.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The smooth body behind a mask, and the place of the bar on it, whatever the cells.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What is read from the way of a bar, and what a scene offers.
 #include "retraction/contact_path.h"
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Tetrahedra that follow the organ's smooth surface, against closed forms and against voxels.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The error that a run on Delaunay tetrahedra is said to have, against the answer in much finer ones.
 //
 // The estimate is |u_h − u_rh| / (r − 1), r = 2 or less. Where the error falls with order p that is (r^p − 1) / (r − 1)

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // The error that a run in voxels is said to have, at the retractor and of a difference, against the answer in finer
 // voxels of the same shape.
 //

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Whether linear theory can be trusted, in millimetres, and models that cannot bend as their body does.
 #include "retraction/linear_gap.h"
 

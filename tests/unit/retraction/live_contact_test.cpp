@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A bar that a force or a travel leads, frame by frame: its rule on springs that are known, then the liver itself.
 #include <gtest/gtest.h>
 

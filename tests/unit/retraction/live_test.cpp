@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "retraction/live_condensed.h"
 
 #include <gtest/gtest.h>

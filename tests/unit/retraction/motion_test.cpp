@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Motions in time: where they end, what they say, condensed and full.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // Every row of the gesture table, in every state. Rows of the view alone (zoom, pan, slice, window) are tested through
 // the window, in tests/gui.
 #include <gtest/gtest.h>

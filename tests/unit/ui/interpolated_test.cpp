@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What gestures mean on a slice whose outline was interpolated.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What the lines over an image look like, pixel by pixel.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // A retraction that follows the tool against the full solve of the same scene.
 #include "session/live_pair.h"
 

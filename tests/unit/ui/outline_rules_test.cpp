@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
 // What keeps an outline a region: crossing, too small, parked, and what is said of it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs glisson-cli. Standard library only."""
 import json
 import os

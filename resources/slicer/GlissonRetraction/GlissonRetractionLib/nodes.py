@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Turns results into Slicer's nodes. The module `slicer` is passed in, so that it can be replaced in tests."""
 
 LOADERS = {"volume": "loadVolume", "vector": "loadVolume", "segmentation": "loadSegmentation", "model": "loadModel",

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reads what glisson-cli wrote as plain data. Standard library only."""
 import csv
 import json

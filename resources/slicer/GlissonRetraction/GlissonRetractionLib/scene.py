@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes scene.json for a patient. Standard library only."""
 import json
 import pathlib
