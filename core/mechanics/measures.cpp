@@ -71,11 +71,15 @@ CellMeasures measureCells(const VoxelMesh& mesh, const NodalField& u_m, StrainMe
   m.principalStrain.resize(count);
   m.rotation_deg.resize(count);
   m.volumeRatio.resize(count);
+  m.meanVolumeRatio.resize(count);
   std::array<Eigen::Matrix<double, 8, 3>, 9> gradients;
+  std::array<Eigen::Matrix<double, 8, 3>, 8> atGauss;  // two per axis: exact, as det F is of second order along each
   gradients[0] = hexGradients(mesh.h_m(), Eigen::Vector3d::Zero());
-  for (int a = 0; a < 8; ++a)
-    gradients[static_cast<std::size_t>(a) + 1] =
-        hexGradients(mesh.h_m(), Eigen::Vector3d(2 * (a & 1) - 1, 2 * (a >> 1 & 1) - 1, 2 * (a >> 2 & 1) - 1));
+  for (int a = 0; a < 8; ++a) {
+    const Eigen::Vector3d corner(2 * (a & 1) - 1, 2 * (a >> 1 & 1) - 1, 2 * (a >> 2 & 1) - 1);
+    gradients[static_cast<std::size_t>(a) + 1] = hexGradients(mesh.h_m(), corner);
+    atGauss[static_cast<std::size_t>(a)] = hexGradients(mesh.h_m(), corner / std::numbers::sqrt3);
+  }
   parallelChunks(static_cast<std::size_t>(count), chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t cell = begin; cell < end; ++cell) {
       const auto e = static_cast<Eigen::Index>(cell);
@@ -90,10 +94,12 @@ CellMeasures measureCells(const VoxelMesh& mesh, const NodalField& u_m, StrainMe
           Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(strain, Eigen::EigenvaluesOnly).eigenvalues();
       m.principalStrain[e] = principal.cwiseAbs().maxCoeff();
       m.rotation_deg[e] = rotationAngle_deg(Eigen::Matrix3d::Identity() + H);
-      double smallest = std::numeric_limits<double>::infinity();
+      double smallest = std::numeric_limits<double>::infinity(), sum = 0.0;
       for (const auto& G : gradients)
         smallest = std::min(smallest, (Eigen::Matrix3d::Identity() + u * G).determinant());
+      for (const auto& G : atGauss) sum += (Eigen::Matrix3d::Identity() + u * G).determinant();
       m.volumeRatio[e] = smallest;
+      m.meanVolumeRatio[e] = sum / 8;
     }
   });
   return m;
@@ -123,6 +129,7 @@ DeformationSummary summarise(const CellMeasures& cells, const NodalField& u_m, c
     s.maxStrain = std::max(s.maxStrain, cells.principalStrain[e]);
     s.maxRotation_deg = std::max(s.maxRotation_deg, cells.rotation_deg[e]);
     if (cells.volumeRatio[e] <= 0) ++s.invertedCells;
+    s.smallestVolumeRatio = std::min(s.smallestVolumeRatio, cells.meanVolumeRatio[e]);
   }
   if (strains.empty()) return s;
   std::sort(strains.begin(), strains.end());

@@ -22,6 +22,7 @@ struct CellMeasures {
   Eigen::VectorXd principalStrain;                  ///< largest |eigenvalue| of the strain
   Eigen::VectorXd rotation_deg;                     ///< angle of R in the polar decomposition F = R U
   Eigen::VectorXd volumeRatio;  ///< det F; the smallest of the centre and the eight corners, so that folding is seen
+  Eigen::VectorXd meanVolumeRatio;  ///< mean of det F over the cell: deformed volume over volume at rest
 };
 
 /// u_m: 3 × nodeCount. The strain at the centre of a trilinear box is also its mean over the box. Throws BadArgument on
@@ -35,7 +36,8 @@ struct DeformationSummary {
   double maxRotation_deg = 0.0;
   double fractionAbove10 = 0.0;  ///< of the volume with |principal strain| > 0.1
   std::size_t invertedCells = 0;
-  std::size_t cellsLeftOut = 0;  ///< cells of which less than leastCovered belongs to the body
+  double smallestVolumeRatio = 1.0;  ///< deformed volume of a cell over its volume at rest
+  std::size_t cellsLeftOut = 0;      ///< cells of which less than leastCovered belongs to the body
   double maxDisplacement_m = 0.0;
   double meanDisplacement_m = 0.0;  ///< over nodes
 };

@@ -207,6 +207,7 @@ void estimateDiscretisation(RunState& s, const Progress& p) {
   const retraction::SecondAnswer second{s.atlasModel, both ? *r.atlas : r.primary};
   r.discretisation =
       retraction::discretisationError(r.model, s.setup, r.primary, p, both ? &second : nullptr, r.landmarks_mm);
+  detail::tellOfDiscretisation(r);
 }
 
 void tellOfMissingPicture(RunState& s) {
@@ -231,7 +232,10 @@ void solveInLinearTheory(RunState& s, const Progress& p) {
   try {
     linear = linearAnswers(s, p);
   } catch (const BadInput& why) {
-    s.log.explain(StepId::LinearSolve, std::string("linear theory does not offer this scene: ") + why.what());
+    const std::string none = std::string("linear theory does not offer this scene: ") + why.what();
+    s.log.explain(StepId::LinearSolve, none);
+    for (retraction::Result* answer : {&r.primary, r.atlas ? &*r.atlas : nullptr})
+      if (answer && !answer->linearGap) answer->linearGap.emplace().why = none;
     return;
   }
   noteGap(r.model, linear.primary, r.landmarks_mm, r.primary);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "pipeline/detail/needs.h"
+#include "pipeline/detail/record.h"
 #include "retraction/offered.h"
 
 namespace glisson::pipeline {
@@ -137,7 +138,8 @@ namespace {
 
 /// What is said of an answer and stands among the run's own diagnostics too, with its stiffness.
 bool isOfRun(DiagnosticCode code) {
-  return code == DiagnosticCode::RetractorPastLimit || Diagnostic{code, {}}.severity() == Severity::Error;
+  return code == DiagnosticCode::RetractorPastLimit || code == DiagnosticCode::RetractorJumps ||
+         code == DiagnosticCode::CellsCrushed || Diagnostic{code, {}}.severity() == Severity::Error;
 }
 
 }  // namespace
@@ -220,6 +222,29 @@ void tellOfSignificance(RunResult& r) {
   r.diagnostics.add(DiagnosticCode::SignificanceOpen, {{"at_retractor_mm", r.difference->at_retractor_mm},
                                                        {"line_mm", defaults::clinicallySignificant.mm()},
                                                        {"error_mm", *r.discretisation->difference->at_retractor_mm}});
+}
+
+void tellOfDiscretisation(RunResult& r) {
+  constexpr double clinically_mm = 1.0, share = 0.2;  // of the displacement: both have to be passed
+  if (!r.discretisation || !r.discretisation->known || !isAnswer(r.primary)) return;
+  const retraction::DiscretisationError& e = *r.discretisation;
+  struct Place {
+    const char* where;
+    double error_mm, displacement_mm;
+    double share() const { return error_mm / std::max(displacement_mm, 1e-9); }
+  };
+  const Motion motion = motionOf(r.model, r.primary);
+  std::vector<Place> places = {{"somewhere in the body", e.p95_mm, motion.max_mm}};
+  if (e.at_retractor_mm && motion.at_retractor_mm > 0.0)
+    places.push_back({"at the retractor", *e.at_retractor_mm, motion.at_retractor_mm});
+  if (e.vesselsMax_mm) places.push_back({"at a vessel", *e.vesselsMax_mm, motion.max_mm});
+  const Place& worst = *std::max_element(places.begin(), places.end(),
+                                         [](const Place& a, const Place& b) { return a.share() < b.share(); });
+  if (worst.error_mm < clinically_mm || worst.share() < share) return;
+  r.diagnostics.add(DiagnosticCode::DiscretisationLarge, {{"cell_mm", e.cell_mm},
+                                                          {"error_mm", worst.error_mm},
+                                                          {"displacement_mm", worst.displacement_mm},
+                                                          {"where", std::string(worst.where)}});
 }
 
 std::string adviceOn(const Scene& scene, const retraction::Result& r) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "retraction/contact_path.h"
 
+#include <algorithm>
+
 #include "retraction/simulate.h"
 
 namespace glisson::retraction {
@@ -42,6 +44,26 @@ std::optional<std::array<double, 2>> passedOnTheWay(const RigidContact& c) {
     if (step[0] < c.path.back()[0] - before_mm && step[1] > most[1]) most = step;
   if (c.path.back()[1] < clearly * most[1]) return most;
   return {};
+}
+
+std::optional<std::array<double, 2>> gaveWayOnTheWay(const RigidContact& c) {
+  constexpr double clearly = 0.95;  // of the force before: states of the path are loose
+  std::optional<std::array<double, 2>> from;
+  std::array<double, 2> most = {0.0, 0.0};
+  double deepest = clearly, least = 1.0;  // shares of the force that the path fell from
+  for (const auto& step : c.path) {
+    if (step[1] < most[1]) {
+      least = std::min(least, step[1] / most[1]);
+      continue;
+    }
+    if (least < deepest) {
+      deepest = least;
+      from = most;
+    }
+    most = step;
+    least = 1.0;
+  }
+  return from;
 }
 
 }  // namespace glisson::retraction

@@ -24,4 +24,8 @@ double answersForceAt(const RigidContact& contact, double travel_mm);
 /// is clearly below that; else empty.
 std::optional<std::array<double, 2>> passedOnTheWay(const RigidContact& contact);
 
+/// Of a bar that reached what it was asked for: travel (mm) and force (N) of the place on its path from which the force
+/// fell clearly, before it rose beyond that again; of several the one with the deepest fall; else empty.
+std::optional<std::array<double, 2>> gaveWayOnTheWay(const RigidContact& contact);
+
 }  // namespace glisson::retraction

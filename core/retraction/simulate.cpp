@@ -240,6 +240,12 @@ bool doubtOfBar(const RigidContact& c, const std::string& stiffness, Result& r) 
                 {{"force_N", c.force_N.dot(c.hoist)}, {"capacity_N", (*most)[1]}, {"stiffness", stiffness}});
         return true;
       }
+      if (const std::optional<std::array<double, 2>> from = gaveWayOnTheWay(c))
+        r.doubt(DiagnosticCode::RetractorJumps, {{"capacity_N", (*from)[1]},
+                                                 {"capacity_travel_mm", (*from)[0]},
+                                                 {"force_N", c.force_N.dot(c.hoist)},
+                                                 {"travel_mm", c.travel_mm},
+                                                 {"stiffness", stiffness}});
       return false;
     case mechanics::ContactOutcome::Stopped: return false;
   }
@@ -278,6 +284,7 @@ mechanics::DeformationSummary measured(const Model& model, const Body& body, con
 /// The verdict and its reasons.
 void judge(const Model& model, const Body& body, const mechanics::Solution& s, bool loadsBorne, Result& r) {
   constexpr double corotationalStrain = 0.10;
+  constexpr double crushedTo = 0.5;  // of a cell's volume: soft tissue, mostly water, hardly changes its own
   const bool linear = r.kinematics == Kinematics::Linear, converged = s.report.converged();
   mechanics::DeformationSummary judged = measured(model, body, s.u_m, r);
   if (!linear) judged.maxRotation_deg = judged.p95Strain = judged.fractionAbove10 = 0;  // no limits to these
@@ -306,6 +313,9 @@ void judge(const Model& model, const Body& body, const mechanics::Solution& s, b
     }
     r.doubts.add(validity.said);
   }
+  if (!linear && converged && judged.smallestVolumeRatio < crushedTo)
+    r.doubt(DiagnosticCode::CellsCrushed,
+            {{"percent", 100 * judged.smallestVolumeRatio}, {"stiffness", model.stiffness}});
   if (r.kinematics == Kinematics::Corotational && r.p95_strain >= corotationalStrain) {
     r.linearTrusted = false;
     r.doubt(DiagnosticCode::StrainBeyondCorotational,

@@ -4111,8 +4111,8 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
             <translation>die Oberfläche neben dem Stab faltet sich und Zellen stülpen sich um (Steifigkeit: {stiffness}): {capacity_N} N werden getragen, {asked} wird nicht erreicht; weniger Kraft oder Weg, einen dickeren Stab oder andere Zellen wählen</translation>
         </message>
         <message>
-            <source>the bar cuts into the surface ({stiffness} stiffness): after {travel_mm} mm and {capacity_N} N it has drawn the cells there apart, and {asked} is not reached; choose a smaller force or travel, a thicker bar, or smaller cells</source>
-            <translation>der Stab schneidet in die Oberfläche (Steifigkeit: {stiffness}): Nach {travel_mm} mm und {capacity_N} N hat er dort die Zellen auseinandergezogen, {asked} wird nicht erreicht; weniger Kraft oder Weg, einen dickeren Stab oder kleinere Zellen wählen</translation>
+            <source>the bar cuts into the surface ({stiffness} stiffness): after {capacity_travel_mm} mm and {capacity_N} N it has drawn the cells there apart, and {asked} is not reached; choose a smaller force or travel, a thicker bar, or smaller cells</source>
+            <translation>der Stab schneidet in die Oberfläche (Steifigkeit: {stiffness}): Nach {capacity_travel_mm} mm und {capacity_N} N hat er dort die Zellen auseinandergezogen, {asked} wird nicht erreicht; weniger Kraft oder Weg, einen dickeren Stab oder kleinere Zellen wählen</translation>
         </message>
         <message>
             <source>the bar bears {force_N} N at this travel ({stiffness} stiffness), and bore {capacity_N} N on its way: under a force instead of a travel it would have moved on by itself</source>

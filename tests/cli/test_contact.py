@@ -179,7 +179,7 @@ class Contact(SceneTest):
         self.assertGreater(self.run_scene(beam, "--strict")["linear_gap_mm"]["max"], 0.1)
 
     def test_strict_refuses_doubts_and_not_the_programs_own_choices(self):
-        block = {**BLOCK, "geometry": {**BLOCK["geometry"], "cell_mm": 10}}
+        block = {**BLOCK, "geometry": {**BLOCK["geometry"], "cell_mm": 5}}
         self.assertEqual(self.run_scene(block, "--strict")["warnings"], [])
         for doubtful, code in (({**block, "capsule": True, "loads": [{**BAR, "contact": "patch"}]}, "capsule-not-used"),
                                ({**block, "material": {"youngs_kPa": 6, "poisson": -0.2}}, "poisson-negative")):

@@ -95,7 +95,7 @@ struct Meeting {
     const double off_N = solver.barForce(state) - goal_N;
     // Past the goal a state is loosely converged only: what is borne is known below it.
     if (off_N < 0 && off_N + goal_N > best_N) best_N = off_N + goal_N, bestAt_m = state.s;
-    solver.met(off_N + goal_N, state.s);
+    solver.met(off_N + goal_N, state);
     if (tight && std::abs(off_N) <= tolerance * goal_N) return true;
     if (!tight && (off_N < 0 ? above : below)) {
       tight = true;

@@ -44,26 +44,34 @@ struct Path {
     if (first) solver.out().path.push_back({state.s, last_N});
   }
 
-  /// Between the steps beside the largest force, in short steps to a close answer: that is its maximum. True where the
-  /// force asked for is borne there after all.
+  /// Between the steps beside the largest force, in short steps to a close answer: the largest force of those is what
+  /// is borne. True where that is the force asked for after all.
   bool bearsCloser() {
     const std::vector<State>& trail = solver.trail();
     const auto top = std::find_if(trail.begin(), trail.end(), [&](const State& s) { return s.s >= bestAt_m - 1e-9; });
     if (!solver.problem().force_N || trail.empty() || top == trail.begin()) return false;
     State last = *(top - 1), at = last;
     const double end = top + 1 < trail.end() ? (top + 1)->s : state.s, part = (end - last.s) / closer;
-    for (int i = 1; i < closer; ++i) {
+    double close_N = 0, closeAt_m = 0;
+    for (int i = 0; i < closer; ++i) {
       State trial = at;
       for (std::size_t d = 0; i > 1 && d < trial.u.size(); ++d) trial.u[d] += at.u[d] - last.u[d];
-      trial.s = at.s + part;
-      if (!solver.energy().passes(at, trial) || !solver.converge(trial, {}, closeTolerance, 40).converged) return false;
+      trial.s = at.s + (i == 0 ? 0 : part);
+      if (!solver.energy().passes(at, trial) || !solver.converge(trial, {}, closeTolerance, 40).converged) break;
       last = std::exchange(at, std::move(trial));
       const double force_N = solver.barForce(at);
-      best_N = std::max(best_N, force_N);
+      if (force_N > close_N) {
+        close_N = force_N;
+        closeAt_m = at.s;
+      }
       if (force_N < *solver.problem().force_N) continue;
       state = std::move(at);
       solver.endTrailAt(state.s);
       return true;
+    }
+    if (close_N > 0) {
+      best_N = close_N;
+      bestAt_m = closeAt_m;
     }
     return false;
   }
@@ -139,7 +147,7 @@ struct Path {
     leaps = 0;
     ContactSolution& out = solver.out();
     if (first) out.path.push_back({state.s, force_N});
-    solver.met(force_N, state.s);
+    solver.met(force_N, state);
     ++steps;
     out.largestDrop_N = std::max(out.largestDrop_N, last_N - force_N);
     last_N = force_N;

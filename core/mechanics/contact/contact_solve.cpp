@@ -14,6 +14,9 @@ namespace glisson::mechanics {
 namespace {
 
 constexpr int mostOnFinest = 500;  ///< iterations there, once the path is done
+constexpr double settled = 1e-4;   ///< of a state that is told of a bar that did not get there
+constexpr int mostToSettle = 30;
+constexpr std::size_t mostBehind = 2;  ///< states before it that are tried
 
 /// A bed holds a body that lies on it, and tethers one that hangs on them, for the question whether anything holds it.
 void requireHeld(const ContactProblem& problem) {
@@ -225,6 +228,39 @@ bool ContactSolver::moveBar(State& state) {
   return followPath(*this, state, PathKind::First) && finish(state);
 }
 
+/// What the body did beyond the last state: cells inside out, the bar through the surface, else where the last search
+/// without an equilibrium was on its way to.
+ContactOutcome ContactSolver::beyond(const State& last) const {
+  if (hierarchy_.level(energy_.top()).smallestVolumeRatio(last.u.data()) <= 0) return ContactOutcome::Folds;
+  return cuts_ || energy_.deep(last) ? ContactOutcome::Cuts : lostTo_;
+}
+
+/// The state on the finest cells. Of a bar that did not get there an equilibrium is told, where there is one near by:
+/// with the travel of the state, or of one of the last before it.
+void ContactSolver::toldOnFinest(State& state, bool good) {
+  while (trail_.size() > mostBehind) trail_.erase(trail_.begin());
+  while (energy_.top() > 0) {
+    const std::size_t l = energy_.top() - 1;
+    state.u = hierarchy_.prolonged(l, state.u);
+    for (State& earlier : trail_) earlier.u = hierarchy_.prolonged(l, earlier.u);
+    useLevel(l);
+  }
+  if (good || !problem_.bar || out_.outcome == ContactOutcome::LoadsNotBorne) return;
+  const ContactOutcome lost = beyond(state);
+  const double residual = lastResidual_;
+  spent_ = 0;
+  trail_.push_back(state);
+  // The largest force that these cells bore is what is to be seen, unless it was passed.
+  if (best_ && lost != ContactOutcome::Slips && best_->s > state.s) trail_.push_back(std::move(*best_));
+  for (; !trail_.empty(); trail_.pop_back()) {
+    if (!converge(trail_.back(), {}, settled, mostToSettle).converged) continue;
+    state = std::move(trail_.back());
+    break;
+  }
+  lostTo_ = lost;
+  lastResidual_ = residual;
+}
+
 ContactSolution ContactSolver::solve() {
   const auto start = std::chrono::steady_clock::now();
   State state;
@@ -238,18 +274,14 @@ ContactSolution ContactSolver::solve() {
     good = loadInSteps(state, options_.tolerance);
     out_.outcome = good ? ContactOutcome::Reached : ContactOutcome::LoadsNotBorne;
   }
-  // What was reached is told on the finest cells.
-  while (energy_.top() > 0 && !options_.pathOnly) {
-    const std::size_t l = energy_.top() - 1;
-    state.u = hierarchy_.prolonged(l, state.u);
-    useLevel(l);
-  }
+  if (options_.pathOnly)
+    lostTo_ = beyond(state);
+  else
+    toldOnFinest(state, good);
   describe(hierarchy_, energy_, problem_, kept_, state, out_);
   if (!good && out_.outcome == ContactOutcome::Reached) out_.outcome = ContactOutcome::Stopped;
   if (out_.outcome == ContactOutcome::Stopped && problem_.bar) {
-    // The state that is told stands; what is said of it is what the body did beyond it.
-    const bool through = cuts_ || energy_.deep(state);
-    out_.outcome = out_.smallestJ <= 0 ? ContactOutcome::Folds : through ? ContactOutcome::Cuts : lostTo_;
+    out_.outcome = lostTo_;
     // States of the path are loose: no more is said to be borne than the state that is told bears.
     if (out_.outcome != ContactOutcome::Stopped && problem_.force_N && met_[0].force_N > 0) {
       const double told_N = out_.force_N.dot(out_.bar.hoist);

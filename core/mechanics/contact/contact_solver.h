@@ -35,9 +35,11 @@ class ContactSolver {
   /// The state is the last but one of the path.
   void leaveBehind(const State& state) { trail_.push_back(state); }
   /// A force that an equilibrium bore on the present cells, and the travel there.
-  void met(double force_N, double travel_m) {
+  void met(double force_N, const State& state) {
     Met& m = met_[energy_.top()];
-    if (force_N > m.force_N) m = {force_N, travel_m};
+    if (!(force_N > m.force_N)) return;
+    m = {force_N, state.s};
+    if (energy_.top() == 0) best_ = state;
   }
   /// Whether the last state that was found was refused, as the bar cut into the surface there.
   bool cuts() const { return cuts_; }
@@ -50,7 +52,9 @@ class ContactSolver {
  private:
   void useLevel(std::size_t l) { energy_.setLoads(l, loads_[l]); }
   ContactOutcome lostFrom(double travel_m, const State& state, bool travels) const;
+  ContactOutcome beyond(const State& last) const;
   bool moveBar(State& state);
+  void toldOnFinest(State& state, bool good);
   bool meetForceFromTrail(State& state, double tolerance, NewtonRun& run);
   bool followAgain(State& state, double tolerance, NewtonRun& run);
   bool finish(State& state);
@@ -68,6 +72,7 @@ class ContactSolver {
     double force_N = 0, travel_m = 0;
   };
   std::vector<Met> met_;                             ///< largest force that an equilibrium bore, per level
+  std::optional<State> best_;                        ///< that equilibrium on the finest cells
   bool cuts_ = false;                                ///< the last state that was found
   ContactOutcome lostTo_ = ContactOutcome::Stopped;  ///< what the last run without an equilibrium was on its way to
   int spent_ = 0;                                    ///< iterations on the finest cells

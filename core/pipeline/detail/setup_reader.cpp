@@ -153,7 +153,9 @@ retraction::SupportSpec readSupport(JsonObject o, const std::filesystem::path& f
     s.tangential = o.number("tangential", 0.0);
     if (s.tangential < 0) o.fail("tangential", "must not be negative: it is a share of the spring's stiffness");
     if (s.tangential > 0 && !s.unilateral)
-      o.fail("tangential", "is offered for springs that only press (\"unilateral\"); others have \"direction\"");
+      o.fail("tangential",
+             "is offered for springs that only press (\"unilateral\"); others hold across the surface "
+             "as much as along it (\"direction\": \"isotropic\") or not at all (\"normal\")");
     s.normalOnly = o.word("direction", {"isotropic", "normal"}, "isotropic") == "normal";
   }
   o.finish();

@@ -29,6 +29,9 @@ void withhold(RunResult& result);
 /// Says so where the cells leave open on which side of the clinical line the difference at the retractor lies.
 void tellOfSignificance(RunResult& result);
 
+/// Where the cells may be off by over a millimetre and a fifth of the displacement.
+void tellOfDiscretisation(RunResult& result);
+
 /// Where linear theory was used outside its limits: which kinematics to choose and what that changes, and what to
 /// change before where the scene does not offer them. Else empty.
 std::string adviceOn(const Scene& scene, const retraction::Result& result);

@@ -48,6 +48,30 @@ TEST(Measures, LinearFieldsAreMeasuredExactly) {
   }
 }
 
+TEST(Measures, TheSmallestVolumeRatioIsThatOfACellThatCounts) {
+  const VoxelMesh mesh(block);
+  const Eigen::Matrix3d F = turn(40) * Eigen::Vector3d(0.9, 0.5, 1.0).asDiagonal();
+  NodalField u = linear(mesh, F);
+  const CellMeasures even = measureCells(mesh, u, StrainMeasure::Biot);
+  EXPECT_NEAR(summarise(even, u).smallestVolumeRatio, 0.45, 1e-12);
+  // One corner pushed into its cell: the cell loses an eighth of its volume, the corner half of it.
+  u.col(0) += F * Eigen::Vector3d(0.005, 0, 0);  // half an edge
+  const CellMeasures pushed = measureCells(mesh, u, StrainMeasure::Biot);
+  EXPECT_NEAR(summarise(pushed, u).smallestVolumeRatio, 0.45 * (1 - 0.5 / 4), 1e-12);
+  EXPECT_LT(pushed.volumeRatio.minCoeff(), 0.45 * 0.51);
+  std::vector<float> covered(static_cast<std::size_t>(mesh.cellCount()), 1.0f);
+  covered[0] = 0.1f;
+  EXPECT_NEAR(summarise(pushed, u, covered).smallestVolumeRatio, 0.45, 1e-12);
+  // An hourglass turns corners inside and takes no volume.
+  NodalField twisted = NodalField::Zero(3, mesh.nodeCount());
+  for (int node = 0; node < mesh.nodeCount(); ++node) {
+    const Eigen::Vector3i at = mesh.latticeOf(node);
+    twisted(0, node) = (at.x() + at.y()) % 2 == 0 ? 0.002 : -0.002;
+  }
+  EXPECT_NEAR(summarise(measureCells(mesh, twisted), twisted).smallestVolumeRatio, 1.0, 1e-12);
+  EXPECT_LT(measureCells(mesh, twisted).volumeRatio.minCoeff(), 0.7);
+}
+
 TEST(Measures, BiotStrainSeesNoRotation) {
   const VoxelMesh mesh(block);
   Eigen::Matrix3d stretch;

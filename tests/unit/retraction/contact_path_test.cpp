@@ -44,6 +44,19 @@ TEST(ContactPath, ABarThatPassedALargerForceIsToldWhere) {
   EXPECT_FALSE(passedOnTheWay(c));
 }
 
+TEST(ContactPath, ABarThatGaveWayOnItsWayIsToldWhere) {
+  RigidContact c;
+  c.path = {{0, 0}, {4, 2}, {10, 8}, {12, 7}, {14, 9}, {18, 5}, {20, 9.5}, {24, 9.4}, {28, 12}};
+  ASSERT_TRUE(gaveWayOnTheWay(c));
+  EXPECT_EQ((*gaveWayOnTheWay(c))[0], 14) << "the deepest of three falls";
+  EXPECT_EQ((*gaveWayOnTheWay(c))[1], 9);
+  c.path = {{0, 0}, {4, 2}, {10, 8}, {12, 7.7}, {14, 9}};
+  EXPECT_FALSE(gaveWayOnTheWay(c)) << "within what states of the path are off by";
+  c.path = {{0, 0}, {10, 8}, {20, 3}};
+  EXPECT_FALSE(gaveWayOnTheWay(c)) << "it did not rise again: passedOnTheWay";
+  EXPECT_FALSE(gaveWayOnTheWay(RigidContact{}));
+}
+
 TEST(Offered, SaysWhatRefusesAndWhatToDo) {
   glisson::retraction::Setup s;
   Retractor bar;
