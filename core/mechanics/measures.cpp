@@ -115,7 +115,7 @@ DeformationSummary summarise(const CellMeasures& cells, const NodalField& u_m, c
                       std::to_string(cells.principalStrain.size()) + " cells");
   DeformationSummary s;
   std::vector<std::pair<double, double>> strains;  // strain, volume
-  double volume = 0.0, above10 = 0.0;
+  double volume = 0.0, above10 = 0.0, crushed = 0.0;
   for (std::size_t i = 0; i < covered.size(); ++i) {
     const double share = static_cast<double>(covered[i]);
     if (share < leastCovered) {
@@ -129,13 +129,14 @@ DeformationSummary summarise(const CellMeasures& cells, const NodalField& u_m, c
     s.maxStrain = std::max(s.maxStrain, cells.principalStrain[e]);
     s.maxRotation_deg = std::max(s.maxRotation_deg, cells.rotation_deg[e]);
     if (cells.volumeRatio[e] <= 0) ++s.invertedCells;
-    s.smallestVolumeRatio = std::min(s.smallestVolumeRatio, cells.meanVolumeRatio[e]);
+    if (cells.meanVolumeRatio[e] < 0.5) crushed += share;
   }
   if (strains.empty()) return s;
   std::sort(strains.begin(), strains.end());
   s.p95Strain = quantile(strains, 0.95 * volume);
   s.p99Strain = quantile(strains, 0.99 * volume);
   s.fractionAbove10 = above10 / volume;
+  s.fractionCrushed = crushed / volume;
   const Eigen::VectorXd length = u_m.colwise().norm();
   s.maxDisplacement_m = length.maxCoeff();
   s.meanDisplacement_m = length.mean();

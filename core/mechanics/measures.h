@@ -36,8 +36,8 @@ struct DeformationSummary {
   double maxRotation_deg = 0.0;
   double fractionAbove10 = 0.0;  ///< of the volume with |principal strain| > 0.1
   std::size_t invertedCells = 0;
-  double smallestVolumeRatio = 1.0;  ///< deformed volume of a cell over its volume at rest
-  std::size_t cellsLeftOut = 0;      ///< cells of which less than leastCovered belongs to the body
+  double fractionCrushed = 0.0;  ///< of the volume, in cells that keep less than half of theirs
+  std::size_t cellsLeftOut = 0;  ///< cells of which less than leastCovered belongs to the body
   double maxDisplacement_m = 0.0;
   double meanDisplacement_m = 0.0;  ///< over nodes
 };

@@ -284,7 +284,7 @@ mechanics::DeformationSummary measured(const Model& model, const Body& body, con
 /// The verdict and its reasons.
 void judge(const Model& model, const Body& body, const mechanics::Solution& s, bool loadsBorne, Result& r) {
   constexpr double corotationalStrain = 0.10;
-  constexpr double crushedTo = 0.5;  // of a cell's volume: soft tissue, mostly water, hardly changes its own
+  constexpr double crushedShare = 0.005;  // of the volume; beside a bar single cells always are
   const bool linear = r.kinematics == Kinematics::Linear, converged = s.report.converged();
   mechanics::DeformationSummary judged = measured(model, body, s.u_m, r);
   if (!linear) judged.maxRotation_deg = judged.p95Strain = judged.fractionAbove10 = 0;  // no limits to these
@@ -313,9 +313,8 @@ void judge(const Model& model, const Body& body, const mechanics::Solution& s, b
     }
     r.doubts.add(validity.said);
   }
-  if (!linear && converged && judged.smallestVolumeRatio < crushedTo)
-    r.doubt(DiagnosticCode::CellsCrushed,
-            {{"percent", 100 * judged.smallestVolumeRatio}, {"stiffness", model.stiffness}});
+  if (!linear && converged && judged.fractionCrushed > crushedShare)
+    r.doubt(DiagnosticCode::CellsCrushed, {{"percent", 100 * judged.fractionCrushed}, {"stiffness", model.stiffness}});
   if (r.kinematics == Kinematics::Corotational && r.p95_strain >= corotationalStrain) {
     r.linearTrusted = false;
     r.doubt(DiagnosticCode::StrainBeyondCorotational,

@@ -4111,6 +4111,18 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
             <translation>die Oberfläche neben dem Stab faltet sich und Zellen stülpen sich um (Steifigkeit: {stiffness}): {capacity_N} N werden getragen, {asked} wird nicht erreicht; weniger Kraft oder Weg, einen dickeren Stab oder andere Zellen wählen</translation>
         </message>
         <message>
+            <source>the bar bore {capacity_N} N after {capacity_travel_mm} mm, then less, before it bears {force_N} N after {travel_mm} mm ({stiffness} stiffness): under a force it moves on by itself between the two</source>
+            <translation>der Stab trug {capacity_N} N nach {capacity_travel_mm} mm, dann weniger, bevor er {force_N} N nach {travel_mm} mm trägt (Steifigkeit: {stiffness}): Unter einer Kraft gleitet er dazwischen von selbst weiter</translation>
+        </message>
+        <message>
+            <source>{percent} % of the body is compressed to less than half of its volume ({stiffness} stiffness), far beyond what was measured of any soft tissue: places there are not to be trusted</source>
+            <translation>{percent} % des Körpers sind auf weniger als die Hälfte ihres Volumens zusammengedrückt (Steifigkeit: {stiffness}), weit über das hinaus, was an Weichgewebe gemessen wurde: Orten dort ist nicht zu trauen</translation>
+        </message>
+        <message>
+            <source>cells of {cell_mm} mm may be off by {error_mm} mm in a displacement of {displacement_mm} mm {where}: use smaller cells before these numbers are used</source>
+            <translation>Zellen von {cell_mm} mm können bei einer Verschiebung von {displacement_mm} mm um {error_mm} mm danebenliegen ({where}): kleinere Zellen nehmen, bevor diese Zahlen verwendet werden</translation>
+        </message>
+        <message>
             <source>the bar cuts into the surface ({stiffness} stiffness): after {capacity_travel_mm} mm and {capacity_N} N it has drawn the cells there apart, and {asked} is not reached; choose a smaller force or travel, a thicker bar, or smaller cells</source>
             <translation>der Stab schneidet in die Oberfläche (Steifigkeit: {stiffness}): Nach {capacity_travel_mm} mm und {capacity_N} N hat er dort die Zellen auseinandergezogen, {asked} wird nicht erreicht; weniger Kraft oder Weg, einen dickeren Stab oder kleinere Zellen wählen</translation>
         </message>

@@ -283,7 +283,8 @@ ContactSolution ContactSolver::solve() {
   if (out_.outcome == ContactOutcome::Stopped && problem_.bar) {
     out_.outcome = lostTo_;
     // States of the path are loose: no more is said to be borne than the state that is told bears.
-    if (out_.outcome != ContactOutcome::Stopped && problem_.force_N && met_[0].force_N > 0) {
+    const bool beforeItsEnd = problem_.travel_m && out_.outcome == ContactOutcome::Slips;
+    if (out_.outcome != ContactOutcome::Stopped && !beforeItsEnd && met_[0].force_N > 0) {
       const double told_N = out_.force_N.dot(out_.bar.hoist);
       const bool least = told_N < met_[0].force_N;
       out_.capacity_N = least ? told_N : met_[0].force_N;
