@@ -270,6 +270,57 @@ class Contact(SceneTest):
         self.assertGreater(r["contact"]["capacity_N"], r["contact"]["force_along_hoist_N"])
         self.assertLess(r["contact"]["capacity_travel_mm"], 60)
 
+    #: A block of 40 mm held from below, pushed into from above near an edge.
+    CUBE = {"geometry": {"kind": "box", "size_mm": [40, 40, 40], "cell_mm": 5}, "material": {"shear_kPa": 1, "poisson": 0.3},
+            "supports": [{"region": {"face": "z-"}, "kind": "fixed"}]}
+
+    def test_a_bar_that_gave_way_on_its_way_and_crushed_tissue_are_said(self):
+        bar = {"kind": "retractor", "diameter_mm": 16, "length_mm": 30, "at": [11, 27, 40], "axis": [0, 1, 0],
+               "direction": [0, 0, -1], "drive": {"travel_mm": 40}}
+        r = self.run_scene({**self.CUBE, "loads": [bar], "capsule": True})
+        said = {d["code"]: d["arguments"] for d in r["diagnostics"]}
+        jump = said["retractor-jumps"]
+        path = r["contact"]["path"]
+        largest = max(force for travel, force in path if travel <= jump["capacity_travel_mm"])
+        self.assertEqual(jump["capacity_N"], largest)
+        self.assertLess(min(force for travel, force in path if travel > jump["capacity_travel_mm"]), 0.95 * largest)
+        self.assertGreater(jump["force_N"], largest)
+        self.assertGreater(said["cells-crushed"]["percent"], 5)
+        gentle = self.run_scene({**self.CUBE, "loads": [{**bar, "drive": {"travel_mm": 5}}], "capsule": True})
+        self.assertFalse({"retractor-jumps", "cells-crushed"} & {d["code"] for d in gentle["diagnostics"]})
+
+    def test_cells_that_are_too_coarse_for_what_they_say_are_doubted(self):
+        coarse = self.run_scene({**BLOCK, "geometry": {**BLOCK["geometry"], "cell_mm": 10}})
+        doubt = {d["code"]: d["arguments"] for d in coarse["diagnostics"]}["discretisation-large"]
+        self.assertEqual(doubt["cell_mm"], 10)
+        self.assertGreater(doubt["error_mm"], 0.2 * doubt["displacement_mm"])
+
+    def test_what_is_told_of_a_bar_that_did_not_get_there_is_an_equilibrium(self):
+        bar = {"kind": "retractor", "at": [40, 30, 40], "axis": [0, 1, 0], "length_mm": 40, "direction": [0, 0, -1]}
+        r = self.run_scene({**self.LOW, "material": {"shear_kPa": 1, "poisson": 0.3}, "loads": [{**bar, "force": 3}]}, code=4)
+        contact = r["contact"]
+        self.assertLess(math.dist(contact["force_N"], [-f for f in r["reaction_N"]]), 2e-3 * contact["resultant_N"])
+        # The same travel alone bears what is said to be borne.
+        travel = contact["capacity_travel_mm"]
+        held = self.run_scene({**self.LOW, "material": {"shear_kPa": 1, "poisson": 0.3},
+                               "loads": [{**bar, "drive": {"travel_mm": travel}}]})
+        self.assertAlmostEqual(held["contact"]["force_along_hoist_N"], contact["capacity_N"], delta=0.05 * contact["capacity_N"])
+
+    def test_a_bar_of_a_millimetre_answers(self):
+        r = self.run_scene({**self.CUBE, "material": {"shear_kPa": 2, "poisson": 0.45},
+                            "loads": [{"kind": "retractor", "diameter_mm": 1, "length_mm": 20, "at": [20, 20, 40],
+                                       "axis": [0, 1, 0], "direction": [0, 0, -1], "force": 0.3}]})
+        self.assertAlmostEqual(r["contact"]["force_along_hoist_N"], 0.3, delta=1e-5)
+        self.assertAlmostEqual(r["reaction_N"][2], 0.3, delta=1e-4)
+
+    def test_loads_without_a_bar_that_are_not_borne_are_said(self):
+        beam = {"geometry": {"kind": "box", "size_mm": [80, 20, 20], "cell_mm": 5}, "kinematics": "hyperelastic",
+                "material": {"youngs_kPa": 6, "poisson": 0.45}, "supports": [{"region": {"face": "x-"}, "kind": "fixed"}],
+                "loads": [{"kind": "traction", "region": {"face": "x+"}, "kPa": [0, 0, -500]}]}
+        r = self.run_scene(beam, code=4)
+        self.assertFalse(r["solver"]["converged"])
+        self.assertEqual([d["code"] for d in r["diagnostics"] if d["severity"] == "error"], ["loads-not-borne"])
+
     def test_errors_of_linear_answers_are_refused_if_strict(self):
         scene = {**self.LOW, "loads": [self.pushed(force=2)], "kinematics": "linear"}
         r = self.run_scene(scene)
