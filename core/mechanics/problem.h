@@ -111,7 +111,11 @@ struct SolverOptions {
   HexElement element = HexElement::Incompatible;
   Preconditioner preconditioner = Preconditioner::Jacobi;  ///< for Cg
   int iterations = 0;                                      ///< limit; 0 = a limit of the solver's own
-  double tolerance = 1e-8;                                 ///< on the true relative residual
+  static constexpr double usualTolerance = 1e-8;
+  double tolerance = usualTolerance;  ///< on the true relative residual
+  bool toleranceAsked = false;        ///< the usual one is the user's word too, not the program's choice
+  /// A tolerance that somebody asked for is taken as given; one that nobody did may suit the task.
+  bool keepsTolerance() const { return toleranceAsked || tolerance != usualTolerance; }
 };
 
 struct Solution {

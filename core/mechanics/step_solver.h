@@ -14,10 +14,12 @@
 namespace glisson::mechanics {
 
 /// Solves (m M + k K) x = b of a voxel body, the matrix of an implicit time step, for one right side after another, on
-/// row storage. The choice of solvers is VoxelSystem's; what Auto iterates on it solves to 100 times the tolerance
-/// asked for, which leaves the end of a motion within about the tolerance itself. Iterations start from the combination
-/// of the last solutions that is nearest to the answer (SolutionHistory). Multigrid, and what Auto chooses, iterate in
-/// float on the true residual in double, and go over to double where float no longer halves it.
+/// row storage. The choice of solvers is VoxelSystem's. What Auto iterates on without a tolerance asked for it solves
+/// to 100 times the usual one, which leaves the end of a motion within about the usual one; a tolerance asked for is
+/// kept (SolverOptions::keepsTolerance). Iterations start from the combination of the last solutions that is nearest to
+/// the answer (SolutionHistory). Multigrid, and what Auto chooses, iterate in float on the true residual in double, and
+/// go over to double where float no longer halves it. A residual at the rounding of double precision has converged, as
+/// StaticSolver has it.
 class StepSolver {
  public:
   StepSolver(std::shared_ptr<const VoxelOperator> voxels, const SolverOptions& options);
@@ -36,6 +38,7 @@ class StepSolver {
   double expectedIterations() const;
   void makeFactor();
   void makeMultigrid();
+  NodalField diagonal() const;  ///< of m M + k K
   Preconditioning jacobi() const;
   template <class T>
   PreconditioningOf<T> blockJacobi() const;
@@ -46,6 +49,7 @@ class StepSolver {
   void refineInFloat(Run& run, const PreconditioningOf<float>& M, int limit, bool flexible);
   template <class Z>
   void iterateInDouble(Run& run, const PreconditioningOf<double, Z>& M, int limit, bool flexible);
+  bool acceptRounding(Run& run) const;
   void byMultigrid(Run& run);
   void byFactor(Run& run);
 

@@ -76,7 +76,11 @@ void TimeStepper::withoutRigidForce(Eigen::VectorXd& b) const {
 
 TimeStepper::Seen TimeStepper::see(double factor) {
   system_.applyK(q_, Kq_);
-  system_.applyM(v_, Mv_);
+  if (impulseKnown_)
+    Mv_ -= ((h_ + damp_) / (1.0 + h_ * alpha_)) * Kq_;
+  else
+    system_.applyM(v_, Mv_);
+  impulseKnown_ = false;
   return {0.5 * (v_.dot(Mv_) + speed_.squaredNorm()), 0.5 * q_.dot(Kq_), (factor * f_ - Kq_).norm()};
 }
 
@@ -101,6 +105,10 @@ SolveReport TimeStepper::stepEuler(double to, DynamicState& state) {
   Eigen::VectorXd b = Mv_ + h_ * (to * f_ - Kq_);
   const SolveReport report = solve(b);
   if (report.status == SolveStatus::NotFinite) return report;
+  // The step's own equation has M v₊, since h K v₊ is the change of K q: (1 + h α) M v₊ = b − (h + β) (K q₊ − K q).
+  // What its solver left undone stays in it, and is done by the next step.
+  impulseKnown_ = report.converged() && R_.cols() == 0;
+  if (impulseKnown_) Mv_ = (b + (h_ + damp_) * Kq_) / (1.0 + h_ * alpha_);
   a_ = (x_ - v_) / h_;
   v_ = x_;
   q_ += h_ * v_;

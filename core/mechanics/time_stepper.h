@@ -48,6 +48,7 @@ class TimeStepper {
   Eigen::VectorXd q_, v_, a_;                        ///< of the rest
   Eigen::VectorXd distance_, speed_, acceleration_;  ///< of the modes
   Eigen::VectorXd Kq_, Mv_, x_;
+  bool impulseKnown_ = false;  ///< M v of the last step is Mv_ − (h + β) K q / (1 + h α), with the K q that it leads to
 };
 
 }  // namespace glisson::mechanics

@@ -211,7 +211,8 @@ Json toJson(const uncertainty::Options& u) {
   return j;
 }
 
-/// used: whether the scene's solver takes them; else they are written where the scene names them.
+/// used: whether the scene's solver takes them; else they are written where the scene names them. The tolerance of time
+/// steps that nobody named is the program's to choose, and is still when the text is read again.
 Json solverToJson(const Scene& scene, bool used) {
   const retraction::Setup& s = scene.setup;
   using mechanics::Preconditioner;
@@ -223,10 +224,11 @@ Json solverToJson(const Scene& scene, bool used) {
               : s.solver.kind == SolverKind::Multigrid  ? "multigrid"
                                                         : "auto";
   const mechanics::SolverOptions usual;
+  const bool chosen =
+      s.analysis.dynamic && !s.condensed && s.solver.kind == SolverKind::Auto && !s.solver.keepsTolerance();
   if (used || scene.names("solver.iterations") || s.solver.iterations != usual.iterations)
     j["iterations"] = s.solver.iterations;
-  if (used || scene.names("solver.tolerance") || s.solver.tolerance != usual.tolerance)
-    j["tolerance"] = s.solver.tolerance;
+  if ((used && !chosen) || s.solver.keepsTolerance()) j["tolerance"] = s.solver.tolerance;
   if (s.solver.kind == SolverKind::Cg && (used || scene.names("solver.preconditioner")))
     j["preconditioner"] = s.solver.preconditioner == Preconditioner::None     ? "none"
                           : s.solver.preconditioner == Preconditioner::Jacobi ? "jacobi"

@@ -288,6 +288,7 @@ mechanics::SolverOptions readSolver(JsonObject o) {
                                   : mechanics::SolverKind::Auto;
   s.iterations = o.integer("iterations", 0);
   if (s.iterations < 0) o.fail("iterations", "must not be negative");
+  s.toleranceAsked = o.has("tolerance");
   s.tolerance = positive(o, "tolerance", o.number("tolerance", s.tolerance));
   if (s.tolerance >= 1.0) o.fail("tolerance", "is the relative residual to reach: it must be below 1, e.g. 1e-8");
   if (kind == "cg") {

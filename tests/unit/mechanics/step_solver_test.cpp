@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "mechanics/dynamics.h"
+#include "mechanics/static_solve.h"
 #include "scenes.h"
 
 namespace glisson::mechanics {
@@ -119,6 +120,55 @@ TEST(StepSolver, FloatReachesWhatDoubleDoes) {
       voxels->implicitLattice(1.0, h * h).apply(x.data(), Ax.data());
       EXPECT_LE(norm(difference(b, Ax)), 1.01 * report.tolerance * norm(b)) << h;
       EXPECT_LE(report.tolerance, 1e-10);
+    }
+}
+
+TEST(StepSolver, AToleranceAskedForIsKeptAndOnlyTheProgramsOwnIsAdapted) {
+  const Problem p = heldCube(13);
+  const auto voxels = std::make_shared<const VoxelOperator>(p.body, HexElement::Incompatible, p.supports);
+  for (const double h : {1e-3, 1e-1}) {
+    const auto solved = [&](double tolerance, bool asked) {
+      SolverOptions options;
+      options.tolerance = tolerance;
+      options.toleranceAsked = asked;
+      StepSolver solver(voxels, options);
+      solver.prepare(1.0, h * h);
+      Random random(5);
+      std::vector<double> b = randomLoad(*voxels, random), x;
+      const SolveReport report = solver.solve(b, x);
+      EXPECT_TRUE(report.converged()) << h;
+      EXPECT_LE(report.residual, report.tolerance) << h;
+      return report;
+    };
+    const SolveReport own = solved(SolverOptions::usualTolerance, false);
+    const SolveReport asked = solved(SolverOptions::usualTolerance, true);
+    EXPECT_DOUBLE_EQ(own.tolerance, 100 * SolverOptions::usualTolerance);
+    EXPECT_EQ(asked.tolerance, SolverOptions::usualTolerance);
+    EXPECT_GT(asked.iterations, own.iterations);
+    for (const double tolerance : {1e-5, 1e-10}) EXPECT_EQ(solved(tolerance, false).tolerance, tolerance);
+  }
+}
+
+TEST(StepSolver, AResidualAtTheRoundingOfDoublePrecisionHasConverged) {
+  const Problem p = heldCube(13);
+  const auto voxels = std::make_shared<const VoxelOperator>(p.body, HexElement::Incompatible, p.supports);
+  for (const double h : {1e-3, 1e3})
+    for (const SolverKind kind : {SolverKind::Auto, SolverKind::Multigrid, SolverKind::Factorised}) {
+      SolverOptions options;
+      options.kind = kind;
+      options.tolerance = 1e-18;
+      StepSolver solver(voxels, options);
+      solver.prepare(1.0, h * h);
+      std::vector<double> b(voxels->lattice().size()), x;
+      voxels->toSlots(p.f_N, b.data());
+      const SolveReport report = solver.solve(b, x);
+      EXPECT_TRUE(report.converged()) << h << ": " << describe(report.status) << ", " << report.residual;
+      EXPECT_LE(report.residual, report.tolerance);
+      EXPECT_LT(report.tolerance, 1e-10);
+      if (kind == SolverKind::Factorised) {
+        EXPECT_NE(report.why.find("rounding"), std::string::npos) << report.why;
+      }
+      EXPECT_TRUE(report.diagnostics.empty()) << "no fall-back";
     }
 }
 

@@ -79,6 +79,24 @@ TEST(Scene, JsonOfASceneGivesTheSameScene) {
   EXPECT_THAT(once, HasSubstr("voronoi"));
 }
 
+TEST(Scene, AToleranceThatIsNamedIsAskedForEvenWhereItIsTheUsualOneAndStaysSoInWriting) {
+  const std::string moving =
+      replaced(beam, "\"outputs\"", R"("analysis": {"kind":"dynamic","h_ms":1,"end_s":0.01}, "outputs")");
+  const Scene own = parseScene(moving, ".");
+  EXPECT_FALSE(own.setup.solver.keepsTolerance());
+  EXPECT_FALSE(parseScene(toJson(own), ".").setup.solver.keepsTolerance());
+  for (const char* tolerance : {"1e-8", "1e-5"}) {
+    const Scene asked =
+        parseScene(replaced(moving, "\"outputs\"",
+                            std::string(R"("solver": {"kind": "auto", "tolerance": )") + tolerance + R"(}, "outputs")"),
+                   ".");
+    EXPECT_TRUE(asked.setup.solver.keepsTolerance()) << tolerance;
+    const Scene again = parseScene(toJson(asked), ".");
+    EXPECT_TRUE(again.setup.solver.keepsTolerance()) << tolerance;
+    EXPECT_DOUBLE_EQ(again.setup.solver.tolerance, std::stod(tolerance));
+  }
+}
+
 TEST(Scene, ACapsuleIsADefaultWhereABarIsAndElseOnlyWhereItIsAskedFor) {
   const std::string bar = R"({ "schema": "glisson/scene/1",
   "geometry": { "kind": "box", "size_mm": [50,50,50], "cell_mm": 10 },
