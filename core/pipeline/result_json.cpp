@@ -62,7 +62,8 @@ Json contactToJson(const retraction::RigidContact& c) {
 /// Null: no retractor, no landmarks.
 Json gapToJson(const std::optional<retraction::LinearGap>& found, bool converged) {
   retraction::LinearGap gap;
-  gap.why = converged ? "a study that measures errors itself left it out" : "there is no answer to compare linear theory with";
+  gap.why = converged ? "a study that measures errors itself left it out"
+                      : "there is no answer to compare linear theory with";
   if (found) gap = *found;
   Json j;
   j["known"] = gap.known;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -17,8 +16,8 @@
 #include "mechanics/tet_solve.h"
 #include "retraction/body.h"
 #include "retraction/condensed_solve.h"
-#include "retraction/contact_path.h"
 #include "retraction/delaunay_solve.h"
+#include "retraction/detail/bar_doubts.h"
 #include "retraction/rigid_contact.h"
 #include "retraction/smooth_body.h"
 
@@ -202,56 +201,6 @@ std::vector<Eigen::Vector3d> interpolate(const Body& body, const mechanics::Noda
   return out;
 }
 
-std::string askedOf(const RigidContact& c) {
-  std::ostringstream t;
-  t.precision(3);
-  if (c.asked_N > 0.0)
-    t << c.asked_N << " N";
-  else
-    t << "a travel of " << c.asked_mm << " mm";
-  return t.str();
-}
-
-void tellLoadsNotBorne(const std::string& stiffness, Result& r) {
-  r.doubt(DiagnosticCode::LoadsNotBorne,
-          {{"stiffness", stiffness}, {"residual", r.solver.residual}, {"tolerance", r.solver.tolerance}});
-}
-
-/// The bar did not get to what was asked for, or only behind a limit: says so. False where there is nothing to say.
-bool doubtOfBar(const RigidContact& c, const std::string& stiffness, Result& r) {
-  const auto failed = [&](DiagnosticCode code) {
-    r.doubt(code, {{"capacity_N", c.capacity_N},
-                   {"capacity_travel_mm", c.capacityAt_mm},
-                   {"travel_mm", c.travel_mm},
-                   {"stiffness", stiffness},
-                   {"asked", askedOf(c)},
-                   {"asked_N", c.asked_N},
-                   {"asked_mm", c.asked_mm}});
-    return true;
-  };
-  switch (c.outcome) {
-    case mechanics::ContactOutcome::Slips: return failed(DiagnosticCode::RetractorSlips);
-    case mechanics::ContactOutcome::Folds: return failed(DiagnosticCode::RetractorFolds);
-    case mechanics::ContactOutcome::Cuts: return failed(DiagnosticCode::RetractorCuts);
-    case mechanics::ContactOutcome::LoadsNotBorne: tellLoadsNotBorne(stiffness, r); return true;
-    case mechanics::ContactOutcome::Reached:
-      if (const std::optional<std::array<double, 2>> most = passedOnTheWay(c)) {
-        r.doubt(DiagnosticCode::RetractorPastLimit,
-                {{"force_N", c.force_N.dot(c.hoist)}, {"capacity_N", (*most)[1]}, {"stiffness", stiffness}});
-        return true;
-      }
-      if (const std::optional<std::array<double, 2>> from = gaveWayOnTheWay(c))
-        r.doubt(DiagnosticCode::RetractorJumps, {{"capacity_N", (*from)[1]},
-                                                 {"capacity_travel_mm", (*from)[0]},
-                                                 {"force_N", c.force_N.dot(c.hoist)},
-                                                 {"travel_mm", c.travel_mm},
-                                                 {"stiffness", stiffness}});
-      return false;
-    case mechanics::ContactOutcome::Stopped: return false;
-  }
-  return false;
-}
-
 /// Share of each cell of the body that lies inside the smooth one.
 std::vector<float> coveredOf(const Model& model, const Body& body) {
   std::vector<float> covered;
@@ -290,9 +239,9 @@ void judge(const Model& model, const Body& body, const mechanics::Solution& s, b
   if (!linear) judged.maxRotation_deg = judged.p95Strain = judged.fractionAbove10 = 0;  // no limits to these
   const mechanics::Validity validity = mechanics::validity(body.mesh(), judged);
   const bool folded = r.contact && !(r.contact->smallestJ > 0);
-  const bool said = r.contact && doubtOfBar(*r.contact, model.stiffness, r);
+  const bool said = r.contact && detail::doubtOfBar(*r.contact, model.stiffness, r);
   if (!converged && !loadsBorne && !said)
-    tellLoadsNotBorne(model.stiffness, r);
+    detail::tellLoadsNotBorne(model.stiffness, r);
   else if (!converged && !said)
     r.doubt(DiagnosticCode::NotConverged,
             {{"stiffness", model.stiffness},
