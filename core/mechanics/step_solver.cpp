@@ -133,18 +133,25 @@ void StepSolver::iterateInDouble(Run& run, const PreconditioningOf<double, Z>& M
     return;
   }
   KrylovOptions o;
-  o.limit = limit;
-  o.tolerance = std::min(0.5, run.goal / run.rNorm);
   o.flexible = flexible;
-  const double before = run.rNorm;
-  const KrylovResult result = conjugateGradients<double, Z>(A_, r_, d_, M, o, {});
-  parallelChunks(d_.size(), chunk, [x = run.x.data(), d = d_.data()](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) x[i] += d[i];
-  });
-  report.status = result.status;
-  report.iterations += result.iterations;
-  residual(run);
-  run.rNorm = before * result.residual;
+  // The residual is that of x itself: the one that the iterations carry along goes on falling below rounding.
+  for (int spent = 0; spent < limit;) {
+    o.limit = limit - spent;
+    o.tolerance = std::min(0.5, run.goal / run.rNorm);
+    const double before = run.rNorm;
+    const KrylovResult result = conjugateGradients<double, Z>(A_, r_, d_, M, o, {});
+    parallelChunks(d_.size(), chunk, [x = run.x.data(), d = d_.data()](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) x[i] += d[i];
+    });
+    spent += result.iterations;
+    report.iterations += result.iterations;
+    report.status = result.status;
+    run.rNorm = residual(run);
+    report.status = run.rNorm <= run.goal                     ? SolveStatus::Converged
+                    : result.status == SolveStatus::Converged ? SolveStatus::StoppedAtLimit
+                                                              : result.status;
+    if (result.status != SolveStatus::Converged || run.rNorm <= run.goal || !(run.rNorm < 0.5 * before)) break;
+  }
 }
 
 /// A step that rounding alone keeps from its goal has converged.

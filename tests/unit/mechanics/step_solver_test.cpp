@@ -165,9 +165,7 @@ TEST(StepSolver, AResidualAtTheRoundingOfDoublePrecisionHasConverged) {
       EXPECT_TRUE(report.converged()) << h << ": " << describe(report.status) << ", " << report.residual;
       EXPECT_LE(report.residual, report.tolerance);
       EXPECT_LT(report.tolerance, 1e-10);
-      if (kind == SolverKind::Factorised) {
-        EXPECT_NE(report.why.find("rounding"), std::string::npos) << report.why;
-      }
+      EXPECT_NE(report.why.find("rounding"), std::string::npos) << report.why;
       EXPECT_TRUE(report.diagnostics.empty()) << "no fall-back";
     }
 }
