@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mechanics/kernel_graph.h"
+#include "mechanics/detail/kernel_graph.h"
 
 #include <queue>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mechanics/meshfree_assembly.h"
+#include "mechanics/detail/meshfree_assembly.h"
 
 #include <Eigen/Core>
 #include <algorithm>
