@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "anatomy/detail/thinning.h"
 #include "anatomy/surface_field.h"
-#include "anatomy/thinning.h"
 #include "image/distance.h"
 #include "image/morphology.h"
 #include "image/resample.h"

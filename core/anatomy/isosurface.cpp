@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "anatomy/isosurface.h"
+#include "anatomy/detail/isosurface.h"
 
 #include <vtkCellArray.h>
 #include <vtkCommand.h>

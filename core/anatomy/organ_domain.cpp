@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "anatomy/organ_domain.h"
+#include "anatomy/detail/organ_domain.h"
 
 #include <algorithm>
 #include <limits>
 #include <map>
 
-#include "anatomy/isosurface.h"
+#include "anatomy/detail/isosurface.h"
 #include "base/disjoint_sets.h"
 
 namespace glisson::anatomy {

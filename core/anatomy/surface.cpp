@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
-#include "anatomy/delaunay.h"
-#include "anatomy/isosurface.h"
+#include "anatomy/detail/delaunay.h"
+#include "anatomy/detail/isosurface.h"
+#include "anatomy/detail/organ_domain.h"
 #include "anatomy/mesh_quality.h"
-#include "anatomy/organ_domain.h"
 #include "anatomy/surface_field.h"
 #include "base/error.h"
 

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <vector>
 
-#include "anatomy/delaunay.h"
-#include "anatomy/organ_domain.h"
+#include "anatomy/detail/delaunay.h"
+#include "anatomy/detail/organ_domain.h"
 #include "anatomy/surface_field.h"
 #include "base/error.h"
 #include "image/components.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "anatomy/thinning.h"
+#include "anatomy/detail/thinning.h"
 
 #include <array>
 #include <vector>

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "anatomy/isosurface.h"
+#include "anatomy/detail/isosurface.h"
 #include "base/disjoint_sets.h"
 
 namespace glisson::anatomy {

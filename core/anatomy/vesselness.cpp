@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "anatomy/vesselness.h"
+#include "anatomy/detail/vesselness.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

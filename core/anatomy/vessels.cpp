@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "anatomy/centreline.h"
-#include "anatomy/isosurface.h"
-#include "anatomy/vesselness.h"
+#include "anatomy/detail/isosurface.h"
+#include "anatomy/detail/vesselness.h"
 #include "base/error.h"
 #include "image/components.h"
 #include "image/distance.h"

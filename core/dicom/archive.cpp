@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dicom/archive.h"
+#include "dicom/detail/archive.h"
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -17,9 +17,9 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "dicom/detail/header_wire.h"
+#include "dicom/detail/image_header.h"
+#include "dicom/detail/reader_process.h"
 #include "dicom/detail/reader_protocol.h"
-#include "dicom/image_header.h"
-#include "dicom/reader_process.h"
 
 namespace glisson::dicom {
 namespace {

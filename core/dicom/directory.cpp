@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dicom/directory.h"
+#include "dicom/detail/directory.h"
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "dicom/detail/attributes.h"
 #include "dicom/detail/header_wire.h"
-#include "dicom/reader_process.h"
+#include "dicom/detail/reader_process.h"
 
 namespace glisson::dicom {
 namespace {

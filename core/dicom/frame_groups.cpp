@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dicom/frame_groups.h"
+#include "dicom/detail/frame_groups.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
-#include "dicom/frame_values.h"
+#include "dicom/detail/frame_values.h"
 
 namespace glisson::dicom {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dicom/frame_values.h"
+#include "dicom/detail/frame_values.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dicom/image_header.h"
+#include "dicom/detail/image_header.h"
 
 #include <algorithm>
 #include <charconv>
@@ -11,10 +11,10 @@
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
-#include "dicom/frame_groups.h"
-#include "dicom/frame_values.h"
-#include "dicom/siemens.h"
-#include "dicom/stored_frames.h"
+#include "dicom/detail/frame_groups.h"
+#include "dicom/detail/frame_values.h"
+#include "dicom/detail/siemens.h"
+#include "dicom/detail/stored_frames.h"
 
 namespace glisson::dicom {
 namespace {

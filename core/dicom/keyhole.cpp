@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dicom/keyhole.h"
+#include "dicom/detail/keyhole.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

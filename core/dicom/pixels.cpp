@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dicom/pixels.h"
+#include "dicom/detail/pixels.h"
 
 #include <algorithm>
 #include <cmath>

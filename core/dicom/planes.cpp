@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "base/diagnostic.h"
-#include "dicom/series_facts.h"
-#include "dicom/slice_stack.h"
+#include "dicom/detail/series_facts.h"
+#include "dicom/detail/slice_stack.h"
 
 namespace glisson::dicom::detail {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/error.h"
 #include "base/map_unit.h"
+#include "dicom/detail/image_header.h"
 #include "dicom/detail/naming.h"
-#include "dicom/image_header.h"
-#include "dicom/pixels.h"
+#include "dicom/detail/pixels.h"
 #include "dicom/series.h"
 
 namespace glisson::dicom {

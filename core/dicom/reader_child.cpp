@@ -12,7 +12,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "dicom/image_header.h"
+#include "dicom/detail/image_header.h"
 
 namespace glisson::dicom::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dicom/reader_process.h"
+#include "dicom/detail/reader_process.h"
 
 #include <unistd.h>
 

@@ -12,15 +12,15 @@
 #include <new>
 
 #include "base/error.h"
-#include "dicom/archive.h"
+#include "dicom/detail/archive.h"
+#include "dicom/detail/directory.h"
 #include "dicom/detail/header_wire.h"
+#include "dicom/detail/image_header.h"
 #include "dicom/detail/packed_frames.h"
 #include "dicom/detail/parsed_objects.h"
 #include "dicom/detail/reader_protocol.h"
+#include "dicom/detail/stored_frames.h"
 #include "dicom/detail/wire.h"
-#include "dicom/directory.h"
-#include "dicom/image_header.h"
-#include "dicom/stored_frames.h"
 
 namespace glisson::dicom {
 namespace {

@@ -7,7 +7,7 @@
 #include "dicom/detail/attributes.h"
 #include "dicom/detail/naming.h"
 #include "dicom/detail/parsed_objects.h"
-#include "dicom/reader_process.h"
+#include "dicom/detail/reader_process.h"
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>

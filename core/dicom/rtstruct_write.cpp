@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/sha256.h"
+#include "dicom/detail/keyhole.h"
 #include "dicom/detail/writer.h"
-#include "dicom/keyhole.h"
 #include "dicom/rtstruct.h"
 #include "dicom/write_mr.h"
 

@@ -7,14 +7,14 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text.h"
-#include "dicom/archive.h"
-#include "dicom/directory.h"
-#include "dicom/image_header.h"
-#include "dicom/pixels.h"
-#include "dicom/reader_process.h"
+#include "dicom/detail/archive.h"
+#include "dicom/detail/directory.h"
+#include "dicom/detail/image_header.h"
+#include "dicom/detail/pixels.h"
+#include "dicom/detail/reader_process.h"
+#include "dicom/detail/volumes.h"
 #include "dicom/roles.h"
 #include "dicom/series.h"
-#include "dicom/volumes.h"
 
 namespace glisson::dicom {
 namespace {

@@ -14,9 +14,9 @@
 #include "dicom/detail/naming.h"
 #include "dicom/detail/packed_frames.h"
 #include "dicom/detail/parsed_objects.h"
-#include "dicom/reader_process.h"
+#include "dicom/detail/reader_process.h"
+#include "dicom/detail/slice_stack.h"
 #include "dicom/seg.h"
-#include "dicom/slice_stack.h"
 
 namespace glisson::dicom {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dicom/series_facts.h"
+#include "dicom/detail/series_facts.h"
 
 #include <algorithm>
 #include <cmath>

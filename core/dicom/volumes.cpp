@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dicom/volumes.h"
+#include "dicom/detail/volumes.h"
 
 #include <algorithm>
 #include <charconv>
@@ -9,10 +9,10 @@
 
 #include "base/diagnostic.h"
 #include "base/error.h"
-#include "dicom/announced.h"
+#include "dicom/detail/announced.h"
 #include "dicom/detail/planes.h"
-#include "dicom/series_facts.h"
-#include "dicom/stored_frames.h"
+#include "dicom/detail/series_facts.h"
+#include "dicom/detail/stored_frames.h"
 
 namespace glisson::dicom {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "exchange/matrices.h"
+#include "exchange/detail/matrices.h"
 
 #include <map>
 #include <ostream>

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "base/error.h"
+#include "exchange/detail/matrices.h"
 #include "exchange/detail/sofa_scene.h"
-#include "exchange/matrices.h"
 #include "exchange/text_file.h"
 #include "mechanics/tet_mesh.h"
 

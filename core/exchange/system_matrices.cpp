@@ -6,7 +6,7 @@
 #include <ostream>
 
 #include "base/error.h"
-#include "exchange/matrices.h"
+#include "exchange/detail/matrices.h"
 #include "exchange/text_file.h"
 #include "retraction/body.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "image/completeness.h"
+#include "image/detail/completeness.h"
 
 #include <zlib.h>
 

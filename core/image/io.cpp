@@ -20,7 +20,7 @@
 #include "base/error.h"
 #include "base/part_file.h"
 #include "base/text.h"
-#include "image/completeness.h"
+#include "image/detail/completeness.h"
 #include "image/detail/nifti.h"
 #include "image/detail/nrrd.h"
 

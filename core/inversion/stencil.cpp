@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "inversion/stencil.h"
+#include "inversion/detail/stencil.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>

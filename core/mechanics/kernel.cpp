@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "mechanics/kernel_graph.h"
+#include "mechanics/detail/kernel_graph.h"
 
 namespace glisson::mechanics {
 namespace {

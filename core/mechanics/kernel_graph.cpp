@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mechanics/kernel_graph.h"
+#include "mechanics/detail/kernel_graph.h"
 
 #include <queue>
 
@@ -42,7 +42,8 @@ void NodeGraph::shortest(const std::vector<std::pair<int, double>>& sources, con
     queue.emplace(first, node);
   }
   while (!queue.empty()) {
-    const auto [d, node] = queue.top();
+    const double d = queue.top().first;
+    const int node = queue.top().second;
     queue.pop();
     if (d > distance_m[static_cast<std::size_t>(node)]) continue;
     forNeighbours(node, [&](int next, double length) {

@@ -6,9 +6,9 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "mechanics/detail/newton_tangent.h"
 #include "mechanics/meshfree_solve.h"
 #include "mechanics/multigrid.h"
-#include "mechanics/newton_tangent.h"
 #include "mechanics/supports.h"
 
 namespace glisson::mechanics {

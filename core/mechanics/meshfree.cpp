@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "mechanics/meshfree_assembly.h"
+#include "mechanics/detail/meshfree_assembly.h"
 #include "mechanics/supports.h"
 
 namespace glisson::mechanics {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mechanics/meshfree_assembly.h"
+#include "mechanics/detail/meshfree_assembly.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -253,8 +253,8 @@ class Filler {
           };
           for (const Block& block : columns_[static_cast<std::size_t>(j)])
             rows(block.row, [&](Eigen::Index row, int b, int c) { visit(row, column, block, b, c, f, d); });
-          for (const auto& [i, block] : below_[static_cast<std::size_t>(j)])
-            rows(i, [&](Eigen::Index row, int b, int c) { visit(row, column, *block, f, d, b, c); });
+          for (const std::pair<int, const Block*>& below : below_[static_cast<std::size_t>(j)])
+            rows(below.first, [&](Eigen::Index row, int b, int c) { visit(row, column, *below.second, f, d, b, c); });
         }
       }
   }

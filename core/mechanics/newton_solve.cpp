@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "mechanics/detail/newton_tangent.h"
 #include "mechanics/measures.h"
-#include "mechanics/newton_tangent.h"
 #include "mechanics/supports.h"
 
 namespace glisson::mechanics {

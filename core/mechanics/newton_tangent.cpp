@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mechanics/newton_tangent.h"
+#include "mechanics/detail/newton_tangent.h"
 
 #include <algorithm>
 #include <atomic>

@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "base/quantity.h"
+#include "phantom/detail/shape.h"
 #include "phantom/phantom.h"
-#include "phantom/shape.h"
 
 namespace glisson::phantom {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "phantom/elastogram.h"
+#include "phantom/detail/elastogram.h"
 
 #include <numbers>
 

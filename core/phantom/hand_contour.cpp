@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "phantom/hand_contour.h"
+#include "phantom/detail/hand_contour.h"
 
 #include <cmath>
 #include <map>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "phantom/shape.h"
+#include "phantom/detail/shape.h"
 
 namespace glisson::phantom {
 namespace {

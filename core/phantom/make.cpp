@@ -3,11 +3,11 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "phantom/elastogram.h"
-#include "phantom/hand_contour.h"
+#include "phantom/detail/elastogram.h"
+#include "phantom/detail/hand_contour.h"
+#include "phantom/detail/torso.h"
+#include "phantom/detail/vessel_tree.h"
 #include "phantom/phantom.h"
-#include "phantom/torso.h"
-#include "phantom/vessel_tree.h"
 
 namespace glisson::phantom {
 namespace {

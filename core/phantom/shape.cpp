@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "phantom/shape.h"
+#include "phantom/detail/shape.h"
 
 #include <Eigen/Geometry>
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "phantom/torso.h"
+#include "phantom/detail/torso.h"
 
 namespace glisson::phantom {
 namespace {

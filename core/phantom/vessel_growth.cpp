@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "phantom/vessel_tree.h"
+#include "phantom/detail/vessel_tree.h"
 
 namespace glisson::phantom {
 namespace {

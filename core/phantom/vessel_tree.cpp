@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "phantom/vessel_tree.h"
+#include "phantom/detail/vessel_tree.h"
 
 #include <array>
 #include <numeric>

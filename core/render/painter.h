@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/version.h"
 #include "render/picture.h"
 
 namespace glisson::render {
@@ -77,7 +78,6 @@ void paste(Picture& target, const Picture& source, int x, int y);
 /// Breaks text into lines no wider than width_px.
 std::vector<std::string> wrapText(const std::string& utf8, double size_px, double width_px);
 
-/// The line under every exported picture.
-inline constexpr const char* researchUseOnly = "Research use only, not for clinical use";
+using glisson::researchUseOnly;
 
 }  // namespace glisson::render

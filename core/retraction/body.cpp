@@ -92,7 +92,8 @@ std::vector<const SurfaceFace*> Body::faces(const Region& region) const {
       if (test(f)) out.push_back(&f);
   };
   if (const auto* face = std::get_if<FaceRegion>(&region)) {
-    const auto [axis, sign] = gridSide(direction_, face->face[0] - 'x', face->face[1] == '+' ? 1 : -1);
+    const auto [gridAxis, sign] = gridSide(direction_, face->face[0] - 'x', face->face[1] == '+' ? 1 : -1);
+    const int axis = gridAxis;
     const int side = 2 * axis + (sign > 0 ? 1 : 0);
     int extreme = sign > 0 ? -1 : voxels_.cells[axis];
     for (int c = 0; c < mesh_.cellCount(); ++c) {

@@ -10,7 +10,7 @@
 #include "mechanics/loads.h"
 #include "mechanics/measures.h"
 #include "mechanics/static_solve.h"
-#include "study/beam_methods.h"
+#include "study/detail/beam_methods.h"
 
 namespace glisson::study {
 namespace {

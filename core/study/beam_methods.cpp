@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "study/beam_methods.h"
+#include "study/detail/beam_methods.h"
 
 #include <sstream>
 
-#include "study/methods.h"
+#include "study/detail/methods.h"
 
 namespace glisson::study {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "study/compared.h"
+#include "study/detail/compared.h"
 
 #include <algorithm>
 #include <cmath>

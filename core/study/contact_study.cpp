@@ -12,7 +12,7 @@
 #include "mechanics/contact/contact_solve.h"
 #include "mechanics/measures.h"
 #include "mechanics/static_solve.h"
-#include "study/timing.h"
+#include "study/detail/timing.h"
 
 namespace glisson::study {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "report/page.h"
-#include "study/credibility_parts.h"
+#include "study/detail/credibility_parts.h"
 #include "study/rows.h"
 
 namespace glisson::study {

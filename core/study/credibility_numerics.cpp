@@ -8,8 +8,8 @@
 #include "report/text.h"
 #include "study/beam.h"
 #include "study/contact_study.h"
-#include "study/credibility_parts.h"
-#include "study/manufactured.h"
+#include "study/detail/credibility_parts.h"
+#include "study/detail/manufactured.h"
 #include "study/stability.h"
 
 namespace glisson::study {

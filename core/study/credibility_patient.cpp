@@ -8,7 +8,7 @@
 #include "phantom/phantom.h"
 #include "pipeline/run.h"
 #include "report/text.h"
-#include "study/credibility_parts.h"
+#include "study/detail/credibility_parts.h"
 
 namespace glisson::study {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "study/manufactured.h"
+#include "study/detail/manufactured.h"
 
 #include <Eigen/LU>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "study/methods.h"
+#include "study/detail/methods.h"
 
 #include <algorithm>
 #include <memory>
@@ -8,7 +8,7 @@
 #include "mechanics/condensed.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/static_solve.h"
-#include "study/timing.h"
+#include "study/detail/timing.h"
 
 namespace glisson::study {
 

@@ -2,8 +2,8 @@
 #include "study/stability.h"
 
 #include "base/error.h"
-#include "study/stability_cases.h"
-#include "study/timing.h"
+#include "study/detail/stability_cases.h"
+#include "study/detail/timing.h"
 
 namespace glisson::study {
 

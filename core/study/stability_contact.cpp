@@ -10,7 +10,7 @@
 #include "mechanics/contact/contact_setup.h"
 #include "mechanics/contact/contact_solve.h"
 #include "mechanics/contact/follower_loads.h"
-#include "study/stability_cases.h"
+#include "study/detail/stability_cases.h"
 
 namespace glisson::study {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "mechanics/measures.h"
 #include "mechanics/static_solve.h"
-#include "study/stability_cases.h"
+#include "study/detail/stability_cases.h"
 
 namespace glisson::study {
 namespace {

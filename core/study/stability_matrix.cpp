@@ -13,8 +13,8 @@
 #include "mechanics/static_solve.h"
 #include "mechanics/tet_solve.h"
 #include "study/beam.h"
-#include "study/stability_cases.h"
-#include "study/timing.h"
+#include "study/detail/stability_cases.h"
+#include "study/detail/timing.h"
 
 namespace glisson::study {
 namespace {

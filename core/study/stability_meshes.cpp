@@ -9,7 +9,7 @@
 #include "mechanics/tet_element.h"
 #include "mechanics/tet_solve.h"
 #include "study/beam.h"
-#include "study/stability_cases.h"
+#include "study/detail/stability_cases.h"
 
 namespace glisson::study {
 namespace {

@@ -10,7 +10,7 @@
 #include "mechanics/meshfree.h"
 #include "mechanics/static_solve.h"
 #include "study/beam.h"
-#include "study/stability_cases.h"
+#include "study/detail/stability_cases.h"
 
 namespace glisson::study {
 namespace {

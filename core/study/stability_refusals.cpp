@@ -8,7 +8,7 @@
 #include "mechanics/supports.h"
 #include "retraction/simulate.h"
 #include "roi/contour_stack.h"
-#include "study/stability_cases.h"
+#include "study/detail/stability_cases.h"
 
 namespace glisson::study {
 namespace {

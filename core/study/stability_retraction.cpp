@@ -3,7 +3,7 @@
 // Whole scenes: comparison with the atlas, the retractor's contact, results that must not be drawn.
 #include "pipeline/run.h"
 #include "retraction/simulate.h"
-#include "study/stability_cases.h"
+#include "study/detail/stability_cases.h"
 
 namespace glisson::study {
 namespace {

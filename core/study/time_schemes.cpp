@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "study/time_schemes.h"
+#include "study/detail/time_schemes.h"
 
 #include <array>
 #include <cmath>
 #include <sstream>
 
 #include "base/error.h"
-#include "study/compared.h"
-#include "study/timing.h"
+#include "study/detail/compared.h"
+#include "study/detail/timing.h"
 
 namespace glisson::study {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "study/timing.h"
+#include "study/detail/timing.h"
 
 namespace glisson::study {
 

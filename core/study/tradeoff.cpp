@@ -7,11 +7,11 @@
 #include "base/error.h"
 #include "pipeline/run.h"
 #include "retraction/discretisation.h"
-#include "study/compared.h"
+#include "study/detail/compared.h"
+#include "study/detail/time_schemes.h"
+#include "study/detail/timing.h"
 #include "study/detail/tradeoff_runs.h"
-#include "study/time_schemes.h"
-#include "study/timing.h"
-#include "study/tradeoff_variants.h"
+#include "study/detail/tradeoff_variants.h"
 
 namespace glisson::study {
 namespace {

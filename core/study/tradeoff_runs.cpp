@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "study/compared.h"
-#include "study/timing.h"
+#include "study/detail/compared.h"
+#include "study/detail/timing.h"
 
 namespace glisson::study {
 namespace {

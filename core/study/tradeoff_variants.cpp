@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "study/tradeoff_variants.h"
+#include "study/detail/tradeoff_variants.h"
 
 #include <algorithm>
 #include <sstream>

@@ -27,6 +27,20 @@ def cli_json(*arguments, code=0, env=None):
     return json.loads(cli(*arguments, "--json", "--quiet", code=code, env=env).stdout)
 
 
+def folder_of_class(cls):
+    """A folder that goes away with the tests of a class: call it in setUpClass."""
+    folder = tempfile.TemporaryDirectory()
+    cls.addClassCleanup(folder.cleanup)
+    return pathlib.Path(folder.name)
+
+
+def folder_of_test(test):
+    """A folder that goes away with a test: call it in setUp or in the test."""
+    folder = tempfile.TemporaryDirectory()
+    test.addCleanup(folder.cleanup)
+    return pathlib.Path(folder.name)
+
+
 def write_scene(folder, scene, name="scene.json"):
     path = pathlib.Path(folder) / name
     path.write_text(json.dumps({"schema": "glisson/scene/1", **scene}))
@@ -37,9 +51,7 @@ class SceneTest(unittest.TestCase):
     """Tests that run scenes in a folder of their own."""
 
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self._folder.name)
-        self.addCleanup(self._folder.cleanup)
+        self.folder = folder_of_test(self)
 
     def run_scene(self, scene, *arguments, code=0):
         return cli_json("run", write_scene(self.folder, scene), "--output", self.folder / "out", *arguments, code=code)

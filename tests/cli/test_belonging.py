@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From files to numbers: what belongs together, which scale holds, which image was outlined. Every answer is right, or
 its doubt is told."""
-import pathlib
-import tempfile
 import unittest
 
 import pydicom
@@ -10,14 +8,12 @@ from pydicom.sequence import Sequence
 
 import small_mre as small
 from small_mre import PER_SLICE, STEP, code, everywhere, liver, scale, siemens, sides, structures, write
-from support import cli, cli_json
+from support import cli, cli_json, folder_of_test
 
 
 class Folder(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = folder_of_test(self)
         self.roi = liver(self.folder / "liver.dcm")
 
     def measure(self, mre="mre", *more, roi=None):

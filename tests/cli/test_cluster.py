@@ -4,10 +4,9 @@ import os
 import pathlib
 import shutil
 import subprocess
-import tempfile
 import unittest
 
-from support import CLI, cli
+from support import CLI, cli, folder_of_class
 from test_cohort import coarse_patients, digests
 
 CLUSTER = pathlib.Path(os.environ["GLISSON_ROOT"]) / "resources" / "cluster"
@@ -22,9 +21,7 @@ class Cluster(unittest.TestCase):
     def setUpClass(cls):
         if not shutil.which("snakemake") and not slurm_answers():
             raise unittest.SkipTest("neither snakemake nor a Slurm cluster is there")
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.folder = folder_of_class(cls)
         cls.patients = cls.folder / "patients"
         coarse_patients(cls.patients, 2)
         cls.whole = cls.folder / "whole"

@@ -7,11 +7,10 @@ import pathlib
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
-from support import CLI, cli, cli_json
+from support import CLI, cli, cli_json, folder_of_class
 
 
 def digests(folder):
@@ -33,9 +32,7 @@ def coarse_patients(folder, number):
 class Cohort(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.folder = folder_of_class(cls)
         cls.patients = cls.folder / "patients"
         coarse_patients(cls.patients, 2)
         for n, name in enumerate(("Doefeather^Jane", "Zoeblossom^Zelda"), 1):

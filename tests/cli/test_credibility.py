@@ -2,10 +2,9 @@
 """The credibility page: six topics, every figure computed now and given again by the command beside it, nothing hidden."""
 import json
 import pathlib
-import tempfile
 import unittest
 
-from support import cli_json
+from support import cli_json, folder_of_class
 
 TOPICS = ["Context of use", "Code verification", "Calculation verification", "Validation", "Uncertainty", "Applicability"]
 
@@ -13,9 +12,7 @@ TOPICS = ["Context of use", "Code verification", "Calculation verification", "Va
 class Credibility(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls._folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls._folder.cleanup)
-        cls.folder = pathlib.Path(cls._folder.name) / "credibility"
+        cls.folder = folder_of_class(cls) / "credibility"
         cls.said = cli_json("validate", "--credibility", "--quick", "--output", cls.folder)
         cls.lines = cls.said["lines"]
 

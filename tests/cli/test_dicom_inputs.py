@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """DICOM as it comes from disks and servers: archives, DICOMDIR, mosaics, thumbnails, roles by hand, mismatched series."""
-import pathlib
 import shutil
 import struct
-import tempfile
 import unittest
 import zipfile
 import zlib
 
 import pydicom
 
-from support import DATA, cli, cli_json, read_nifti, write_nifti, write_scene
+from support import DATA, cli, cli_json, folder_of_class, folder_of_test, read_nifti, write_nifti, write_scene
 
 
 def png_pixels(path):
@@ -33,16 +31,12 @@ def png_pixels(path):
 class DicomInputs(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls._folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls._folder.cleanup)
-        cls.patients = pathlib.Path(cls._folder.name)
+        cls.patients = folder_of_class(cls)
         cli("phantom", "--cases", 1, "--seed", 7, "--output", cls.patients, "--quiet")
         cls.patient = next(p.parent for p in cls.patients.rglob("scene.json"))
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = folder_of_test(self)
 
     def measured(self, mre, *more, code=0):
         arguments = ("measure", "--mre", mre, "--roi", self.patient / "rtstruct.dcm", "--mri", self.patient / "mri", *more)

@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 import unittest
 
-from support import CLI, cli, cli_json, write_nifti, write_scene
+from support import CLI, cli, cli_json, folder_of_class, write_nifti, write_scene
 
 DRAWING = re.compile(r"lib(GL|EGL|GLX|OpenGL|GLEW|vtkRendering\w*)[.-]")
 
@@ -30,9 +30,7 @@ def digests(folder):
 class Lean(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls._folder = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls._folder.name)
-        cls.addClassCleanup(cls._folder.cleanup)
+        cls.folder = folder_of_class(cls)
         # A small "liver": a ball of 60 mm in voxels of 6 mm.
         n = (14, 14, 14)
         ball = [1 if sum((c - 6.5) ** 2 for c in (i % 14, i // 14 % 14, i // 196)) < 25 else 0 for i in range(14**3)]

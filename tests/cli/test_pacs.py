@@ -10,13 +10,12 @@ import signal
 import socket
 import struct
 import subprocess
-import tempfile
 import time
 import unittest
 
 import pydicom
 
-from support import CLI, cli, cli_json
+from support import CLI, cli, cli_json, folder_of_class, folder_of_test
 
 ORTHANC = pathlib.Path("/usr/sbin/Orthanc")
 HASHED = re.compile(r"^[0-9a-f]{32}\.dcm$")
@@ -59,9 +58,7 @@ def pixels_by_uid(folder):
 
 class Base(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = folder_of_test(self)
 
 
 def write_image(path, uid, study="1.2.826.0.1.1", series="1.2.826.0.1.1.1", number=1):
@@ -89,9 +86,7 @@ def write_image(path, uid, study="1.2.826.0.1.1", series="1.2.826.0.1.1.1", numb
 class WithOrthanc(Base):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        root = pathlib.Path(folder.name)
+        root = folder_of_class(cls)
         cls.source = root / "patient"
         cls.source.mkdir()
         for n in range(1, 9):

@@ -1,27 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A synthetic patient from DICOM to overlays with no display; and a patient called PHI^CANARY who must not be seen."""
 import json
-import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
-from support import cli, cli_json
+from support import cli, cli_json, folder_of_class
 
 
 class Journey(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls._folder = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls._folder.name)
+        cls.folder = folder_of_class(cls)
         cli("phantom", "--cases", 1, "--seed", 5, "--output", cls.folder, "--quiet")
         cls.patient = cls.folder / "patient-001"
         cls.truth = json.loads((cls.patient / "truth.json").read_text())
-
-    @classmethod
-    def tearDownClass(cls):
-        cls._folder.cleanup()
 
     def test_scan_finds_every_role_with_a_reason(self):
         series = cli_json("scan", self.patient)["series"]

@@ -3,10 +3,9 @@
 import math
 import pathlib
 import random
-import tempfile
 import unittest
 
-from support import cli, cli_json, read_nifti, write_nifti
+from support import cli, cli_json, folder_of_test, read_nifti, write_nifti
 
 SIZE, SPACING = (48, 44, 2), (1.64, 1.64, 10.0)
 
@@ -22,11 +21,7 @@ def box(low, high):
 
 class Readers(unittest.TestCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.at = pathlib.Path(self.folder.name)
-
-    def tearDown(self):
-        self.folder.cleanup()
+        self.at = folder_of_test(self)
 
     def phases(self, shear_kPa, frequency):
         wavelength = 1e3 * math.sqrt(shear_kPa) / frequency  # mm, at 1000 kg/m3

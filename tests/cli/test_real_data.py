@@ -1,19 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Real data written by others: GE MR750 DICOM, odd series, an abdominal MR with its liver mask. Skipped where absent."""
 import os
-import pathlib
-import tempfile
 import unittest
 
-from support import DATA, cli, cli_json, read_nifti, write_nifti, write_scene
+from support import DATA, cli, cli_json, folder_of_test, read_nifti, write_nifti, write_scene
 
 
 @unittest.skipUnless(DATA.exists(), "the folder of real data is not beside this checkout")
 class RealData(unittest.TestCase):
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self._folder.name)
-        self.addCleanup(self._folder.cleanup)
+        self.folder = folder_of_test(self)
 
     def test_ge_series_equals_the_independent_nifti(self):
         ge = DATA / "mr750_and_odd_series/ge/anatomical"

@@ -2,11 +2,9 @@
 """What a run says of itself: codes and values beside the sentences, each fact once, nothing passed over in silence."""
 import json
 import math
-import pathlib
-import tempfile
 import unittest
 
-from support import cli, cli_json, write_nifti, write_scene
+from support import cli, cli_json, folder_of_test, write_nifti, write_scene
 
 BAR = {"kind": "retractor", "at": [80, 60, 50], "force": 4.6}
 BLOCK = {"geometry": {"kind": "box", "size_mm": [160, 60, 100], "cell_mm": 10},
@@ -34,9 +32,7 @@ def on_path(path, travel):
 
 class Reporting(unittest.TestCase):
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self._folder.name)
-        self.addCleanup(self._folder.cleanup)
+        self.folder = folder_of_test(self)
 
     def run_scene(self, scene, *arguments, code=0, out="out"):
         return cli_json("run", write_scene(self.folder, scene), "--output", self.folder / out, *arguments, code=code)

@@ -2,11 +2,9 @@
 """The published scene schema and the program agree: what one takes the other takes, what one refuses the other refuses."""
 import copy
 import json
-import pathlib
-import tempfile
 import unittest
 
-from support import ROOT, cli, write_scene
+from support import ROOT, cli, folder_of_test, write_scene
 
 try:
     import jsonschema
@@ -59,9 +57,7 @@ BAD = [
 @unittest.skipIf(jsonschema is None, "python3-jsonschema is not installed")
 class Schema(unittest.TestCase):
     def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self._folder.name)
-        self.addCleanup(self._folder.cleanup)
+        self.folder = folder_of_test(self)
         self.schema = json.loads((ROOT / "resources/schemas/scene.schema.json").read_text())
 
     def test_both_take_a_full_scene_and_what_the_program_writes(self):

@@ -2,20 +2,16 @@
 """Outlines and surfaces as sets of points, and places that two programs read differently: right, or said."""
 import json
 import math
-import pathlib
 import struct
-import tempfile
 import unittest
 
-from support import cli, cli_json, write_scene
+from support import cli, cli_json, folder_of_test, write_scene
 from tiny_dicom import image, outlines, rectangle, stiffness
 
 
 class InAFolder(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = folder_of_test(self)
 
     def said(self, j, *parts):
         self.assertTrue(any(all(str(p) in w for p in parts) for w in j["warnings"]), j["warnings"])

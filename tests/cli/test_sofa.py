@@ -2,13 +2,12 @@
 """The exported SOFA node, read by a reader of its own: elements assembled anew, displacement compared with `run`."""
 import itertools
 import pathlib
-import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
 import numpy
 
-from support import cli, cli_json, write_nifti, write_scene
+from support import cli, cli_json, folder_of_test, write_nifti, write_scene
 
 
 def read_vtk(path):
@@ -90,9 +89,7 @@ def solve_as_sofa(folder):
 
 class Sofa(unittest.TestCase):
     def setUp(self):
-        self.temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(self.temporary.cleanup)
-        self.folder = pathlib.Path(self.temporary.name)
+        self.folder = folder_of_test(self)
 
     def mask_scene(self, **more):
         """A lump with stiffness that differs from voxel to voxel, on springs, hoisted by a retractor."""

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Situations beside those that were reported: other words, units, headers and outlines. Each is right, refused, or its
 doubt is told."""
-import pathlib
 import struct
-import tempfile
 import time
 import unittest
 import zipfile
@@ -14,7 +12,7 @@ from pydicom.sequence import Sequence
 
 import small_mre as small
 from small_mre import N, PER_SLICE, STEP, box, everywhere, liver, save, scale, sides, slice_of, structures, write
-from support import cli, cli_json, write_scene
+from support import cli, cli_json, folder_of_test, write_scene
 from test_belonging import Folder
 
 KPA = ("0.001", "0", "kPa")
@@ -227,9 +225,7 @@ class Outlines(Folder):
 
 class Scenes(unittest.TestCase):
     def test_values_that_no_tissue_has_are_told(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        where = pathlib.Path(folder.name)
+        where = folder_of_test(self)
 
         def told(geometry, **material):
             scene = {"geometry": geometry, "material": {"youngs_kPa": 12, "poisson": 0.45, **material},

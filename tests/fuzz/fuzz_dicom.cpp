@@ -9,10 +9,10 @@
 #include <string>
 
 #include "base/error.h"
+#include "dicom/detail/image_header.h"
+#include "dicom/detail/siemens.h"
+#include "dicom/detail/stored_frames.h"
 #include "dicom/file_layout.h"
-#include "dicom/image_header.h"
-#include "dicom/siemens.h"
-#include "dicom/stored_frames.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace glisson::dicom;

@@ -7,7 +7,8 @@ import subprocess
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(os.environ["GLISSON_ROOT"])
+from support import ROOT
+
 BUILD = os.environ["GLISSON_BUILD"]
 CMAKE = os.environ["GLISSON_CMAKE"]
 

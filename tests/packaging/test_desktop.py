@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What desktops read is valid by their own tools, and says the same everywhere."""
 import configparser
-import os
-import pathlib
 import re
 import shutil
 import subprocess
 import unittest
 import xml.etree.ElementTree
 
-ROOT = pathlib.Path(os.environ["GLISSON_ROOT"])
+from support import ROOT
+
 DESKTOP = ROOT / "resources/desktop"
 NAMESPACE = "{http://www.freedesktop.org/standards/shared-mime-info}"
 

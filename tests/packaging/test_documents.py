@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 import unittest
 
-CLI = os.environ["GLISSON_CLI"]
+from support import CLI, folder_of_class
 
 
 def help_of(*verb):
@@ -26,9 +26,7 @@ def verbs():
 class Documents(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls._folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls._folder.cleanup)
-        cls.folder = pathlib.Path(cls._folder.name)
+        cls.folder = folder_of_class(cls)
         subprocess.run([CLI, "document", "--output", cls.folder, "--quiet"], check=True, capture_output=True)
 
     def complete(self, *words):

@@ -8,7 +8,8 @@ import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(os.environ["GLISSON_ROOT"])
+from support import ROOT, folder_of_class
+
 MODULE = ROOT / "resources/slicer/GlissonRetraction"
 sys.path.insert(0, str(MODULE))
 from GlissonRetractionLib import command_line, nodes, results, scene  # noqa: E402
@@ -33,9 +34,7 @@ class Box(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls._folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls._folder.cleanup)
-        cls.folder = pathlib.Path(cls._folder.name)
+        cls.folder = folder_of_class(cls)
         cls.scene = scene.write_scene(cls.folder, {
             "schema": "glisson/scene/1", "geometry": {"kind": "box", "size_mm": [30, 10, 10], "cell_mm": 2.5},
             "material": {"youngs_kPa": 12}, "supports": [{"region": {"face": "x-"}, "kind": "fixed"}],

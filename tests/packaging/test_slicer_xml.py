@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`--xml` describes verbs as 3D Slicer's ModuleDescriptionParser takes them, and what Slicer then calls is accepted."""
 import os
-import pathlib
 import re
 import subprocess
 import unittest
 import xml.etree.ElementTree
 
-CLI = os.environ["GLISSON_CLI"]
-ROOT = pathlib.Path(os.environ["GLISSON_ROOT"])
+from support import CLI, ROOT
+
 VERBS = ("measure", "invert", "propose", "run", "export")
 
 # The rules of the execution model: what may stand where, written from its documentation and parser.

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The forges' workflow files: well formed, and they call programs of this repository that are there."""
 import os
-import pathlib
 import re
 import subprocess
 import unittest
 
-ROOT = pathlib.Path(os.environ["GLISSON_ROOT"])
+from support import ROOT
+
 FILES = (ROOT / ".github/workflows/checks.yml", ROOT / ".gitlab-ci.yml")
 SCRIPTS = (".ci/run", "packaging/deb", "packaging/check-packages", "packaging/install", "packaging/run", "packaging/test")
 

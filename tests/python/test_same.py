@@ -4,14 +4,13 @@ import hashlib
 import json
 import math
 import pathlib
-import tempfile
 import unittest
 
 import numpy as np
 
 import glisson
 from scenes import beam, coarse
-from support import ROOT, cli, cli_json, write_nifti
+from support import ROOT, cli, cli_json, folder_of_class, write_nifti
 from test_readers import SIZE, SPACING, volume
 
 
@@ -28,9 +27,7 @@ def digests(folder, but=()):
 class Same(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.at = pathlib.Path(temporary.name)
+        cls.at = folder_of_class(cls)
         cls.patient = glisson.phantom(cls.at / "patients", seed=3)[0]
         cls.scene = coarse(cls.patient)
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dicom/image_header.h"
+#include "dicom/detail/image_header.h"
 
 namespace glisson::dicom::detail {
 

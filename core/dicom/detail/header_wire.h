@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "dicom/image_header.h"
+#include "dicom/detail/image_header.h"
 
 namespace glisson::dicom::detail {
 

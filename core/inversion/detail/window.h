@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "image/volume.h"
-#include "inversion/stencil.h"
+#include "inversion/detail/stencil.h"
 
 namespace glisson::inversion::detail {
 

@@ -8,9 +8,9 @@
 
 #include "pipeline/run.h"
 #include "retraction/body.h"
-#include "study/methods.h"
+#include "study/detail/methods.h"
+#include "study/detail/tradeoff_variants.h"
 #include "study/tradeoff.h"
-#include "study/tradeoff_variants.h"
 
 namespace glisson::study {
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "anatomy/centreline.h"
-#include "anatomy/thinning.h"
+#include "anatomy/detail/thinning.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"

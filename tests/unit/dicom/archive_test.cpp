@@ -10,7 +10,7 @@
 #include <sstream>
 #include <utility>
 
-#include "dicom/archive.h"
+#include "dicom/detail/archive.h"
 #include "said.h"
 
 namespace glisson::dicom {

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <set>
 
-#include "dicom/image_header.h"
+#include "dicom/detail/image_header.h"
 #include "said.h"
 
 namespace glisson::dicom {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "dicom/siemens.h"
+#include "dicom/detail/siemens.h"
 #include "said.h"
 
 namespace glisson::dicom {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <chrono>
 
-#include "dicom/reader_process.h"
+#include "dicom/detail/reader_process.h"
 #include "said.h"
 
 namespace glisson::dicom {

@@ -12,8 +12,8 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "dicom/keyhole.h"
-#include "dicom/reader_process.h"
+#include "dicom/detail/keyhole.h"
+#include "dicom/detail/reader_process.h"
 #include "dicom/write_mr.h"
 #include "dicom_bytes.h"
 #include "support/support.h"

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "dicom/deidentify.h"
-#include "dicom/keyhole.h"
+#include "dicom/detail/keyhole.h"
 #include "dicom/pmap.h"
 #include "dicom/seg.h"
 #include "dicom/write_mr.h"

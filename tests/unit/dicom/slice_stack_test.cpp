@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dicom/slice_stack.h"
+#include "dicom/detail/slice_stack.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "image/morphology.h"
-#include "inversion/stencil.h"
+#include "inversion/detail/stencil.h"
 #include "simulated.h"
 
 namespace glisson::inversion {

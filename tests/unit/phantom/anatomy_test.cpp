@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "phantom/shape.h"
-#include "phantom/torso.h"
+#include "phantom/detail/shape.h"
+#include "phantom/detail/torso.h"
 #include "roi/contour_stack.h"
 #include "shared_patient.h"
 

@@ -8,8 +8,8 @@
 #include "base/parallel.h"
 #include "image/components.h"
 #include "image/morphology.h"
+#include "phantom/detail/torso.h"
 #include "phantom/phantom.h"
-#include "phantom/torso.h"
 
 namespace glisson::phantom {
 namespace {

@@ -4,9 +4,9 @@
 #include <map>
 #include <set>
 
-#include "phantom/shape.h"
-#include "phantom/torso.h"
-#include "phantom/vessel_tree.h"
+#include "phantom/detail/shape.h"
+#include "phantom/detail/torso.h"
+#include "phantom/detail/vessel_tree.h"
 #include "shared_patient.h"
 
 namespace glisson::phantom {

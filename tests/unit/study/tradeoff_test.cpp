@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "pipeline/run.h"
 #include "retraction/discretisation.h"
-#include "study/tradeoff_variants.h"
+#include "study/detail/tradeoff_variants.h"
 
 namespace glisson::study {
 namespace {

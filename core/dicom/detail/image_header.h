@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "dicom/announced.h"
+#include "dicom/detail/announced.h"
 #include "dicom/file_layout.h"
 #include "dicom/map_quantity.h"
 

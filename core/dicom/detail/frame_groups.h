@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "dicom/image_header.h"
+#include "dicom/detail/image_header.h"
 
 class DcmDataset;
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "dicom/image_header.h"
+#include "dicom/detail/image_header.h"
 
 class DcmDataset;
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "dicom/image_header.h"
+#include "dicom/detail/image_header.h"
 #include "dicom/rtstruct.h"
 
 namespace glisson::dicom {

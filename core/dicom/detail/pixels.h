@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "dicom/image_header.h"
-#include "dicom/reader_process.h"
-#include "dicom/stored_frames.h"
+#include "dicom/detail/image_header.h"
+#include "dicom/detail/reader_process.h"
+#include "dicom/detail/stored_frames.h"
 
 namespace glisson::dicom {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "phantom/detail/shape.h"
 #include "phantom/liver_shape.h"
-#include "phantom/shape.h"
 
 namespace glisson::phantom {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "phantom/detail/torso.h"
 #include "phantom/phantom.h"
-#include "phantom/torso.h"
 
 namespace glisson::phantom {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "dicom/image_header.h"
+#include "dicom/detail/image_header.h"
 #include "dicom/series.h"
 
 namespace glisson::dicom {

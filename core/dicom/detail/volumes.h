@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dicom/image_header.h"
+#include "dicom/detail/image_header.h"
 #include "dicom/series.h"
 
 namespace glisson::dicom {

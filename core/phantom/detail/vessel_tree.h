@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "phantom/shape.h"
+#include "phantom/detail/shape.h"
 
 namespace glisson::phantom {
 
