@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Debian's ITK asks which compiler reads it and knows GCC alone, which built it. Clang reads the same headers: here it says that it is
-// GCC 12, for this one file.
+// Debian's ITK asks which compiler reads it and knows GCC alone, which built it. Clang reads the same headers: here it
+// says that it is GCC 12, for this one file.
 #pragma push_macro("__clang__")
 #pragma push_macro("__GNUC__")
 #pragma push_macro("__GNUC_MINOR__")
