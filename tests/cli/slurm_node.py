@@ -52,7 +52,7 @@ def one_node(folder):
     folder = pathlib.Path(folder)
     for part in ("munge", "state", "spool"):
         (folder / part).mkdir(parents=True)
-    memory = int(next(line for line in open("/proc/meminfo") if line.startswith("MemTotal")).split()[1]) // 1024 - 512
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2**20 - 512
     # A task of the recipe asks for two cores.
     (folder / "slurm.conf").write_text(SETTINGS.format(folder=folder, host=socket.gethostname().split(".")[0], controller=free_port(), node=free_port(), memory=memory,
                                                        cores=max(2, os.cpu_count())))
