@@ -116,6 +116,7 @@ GLISSON_INLINE void storeLastNode(const Row& row, const V (&carry)[4][3]) {
 /// Vector instructions of this processor that kernels are made for.
 enum class InstructionSet { Portable, Avx2, Avx512 };
 
+/// The widest of them that this processor has.
 inline InstructionSet instructionSet() {
 #if defined(__x86_64__)
   __builtin_cpu_init();
