@@ -10,6 +10,7 @@ namespace glisson::anatomy {
 /// (no angle below 28 degrees).
 enum class SurfaceMethod { Isosurface, Delaunay };
 
+/// How a surface is made of a mask.
 struct SurfaceOptions {
   double resolution_mm = 0.0;  ///< edge of the triangles, about; 0: the in-plane spacing, or 1/128 of the extent where
                                ///< that is more (isosurface); 1/16 of the extent (Delaunay)

@@ -9,6 +9,7 @@
 
 namespace glisson::anatomy {
 
+/// A surface as its file has it.
 struct SurfaceFile {
   TriangleMesh mesh;  ///< closed and oriented outwards where `closed`
   bool closed = false;

@@ -13,6 +13,7 @@
 
 namespace glisson::anatomy {
 
+/// Size and quality of the tetrahedra of a volume mesh.
 struct TetrahedraOptions {
   double cell_mm = 10.0;  ///< edge of the cells, about: no circumsphere is larger than 0.7 × this
   /// A tool along a segment (a point: both ends the same), LPS mm. Within toolReach_mm of it cells are toolCell_mm;

@@ -13,6 +13,7 @@
 
 namespace glisson::anatomy {
 
+/// What counts as a vessel.
 struct VesselOptions {
   double smallestRadius_mm = 1.5;
   double largestRadius_mm = 7.0;

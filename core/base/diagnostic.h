@@ -11,6 +11,7 @@
 
 namespace glisson {
 
+/// How serious a diagnostic is.
 enum class Severity { Note, Warning, Error };
 
 /// What can be said about inputs and results. One entry each in diagnostics.def, with its name in JSON, its severity

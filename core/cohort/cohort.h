@@ -10,6 +10,7 @@
 
 namespace glisson::cohort {
 
+/// What a cohort's run does, and with what.
 struct CohortOptions {
   std::filesystem::path output;                ///< results; what is there already and still holds is not computed again
   std::filesystem::path executable;            ///< glisson-cli, which runs each patient in a process of its own
@@ -30,6 +31,7 @@ struct CaseOutcome {
   bool resumed = false;
 };
 
+/// What a cohort's run has done.
 struct CohortResult {
   std::vector<CaseOutcome> cases;
   std::vector<std::filesystem::path> files;

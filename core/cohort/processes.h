@@ -16,6 +16,7 @@ struct Job {
   std::vector<std::string> arguments;
 };
 
+/// How a process ended.
 struct JobOutcome {
   int exitCode = -1;  ///< −1 where a signal ended it
   int signal = 0;     ///< that ended it, 0 = none

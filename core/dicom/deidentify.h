@@ -31,6 +31,7 @@ struct DeidentifyOptions {
   bool keepCharacteristics = false;  ///< retain age (90 at most), sex, size and weight
 };
 
+/// What a de-identification has written and left out.
 struct DeidentifyResult {
   std::vector<std::filesystem::path> files;  ///< written, below the output folder
   std::vector<SkippedFile> leftOut;          ///< no DICOM, or pixels that may show who the patient is; with the reason

@@ -36,6 +36,7 @@ class ByteSource {
   mutable std::uint64_t windowBegin_ = 0;
 };
 
+/// A piece of encapsulated pixel data: bytes of the file.
 struct Fragment {
   std::uint64_t offset = 0;
   std::uint64_t length = 0;

@@ -18,6 +18,7 @@ struct StructureContour {
   bool exclusiveOr = false;  ///< CLOSEDPLANAR_XOR: flips what it encloses; else CLOSED_PLANAR, a set of points
 };
 
+/// A region of interest of a structure set, with its contours.
 struct Structure {
   int number = 0;
   std::string name;
@@ -30,6 +31,7 @@ struct ReferencedSeries {
   std::string frameOfReferenceUid, seriesUid;
 };
 
+/// An RT Structure Set.
 struct StructureSet {
   Origin origin;                             ///< study: the one that it was drawn on
   std::string frameOfReferenceUid;           ///< the first one named

@@ -82,6 +82,7 @@ struct Series {
   std::shared_ptr<const void> folder;  ///< keeps the private folder of an unpacked archive while files are needed
 };
 
+/// What lies below a folder.
 struct ScanResult {
   std::vector<Series> series;        ///< ordered by series number, then uid
   std::vector<SkippedFile> skipped;  ///< ordered by path

@@ -7,6 +7,7 @@
 
 namespace glisson::elastography {
 
+/// Which values of a stiffness map are used, and held to what.
 struct FillOptions {
   double confidenceThreshold = defaults::confidenceThreshold;  ///< of 1
   double low_kPa = 0.0;  ///< values are held to [low, high] before they are used; 0 and infinity: as measured

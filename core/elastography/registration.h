@@ -16,6 +16,7 @@ enum class Motion {
   Rigid     ///< rotation and translation
 };
 
+/// How far, and by what motion, one image may be laid over another.
 struct RegistrationOptions {
   Motion motion = Motion::Auto;
   double largest_mm = 30.0;   ///< translations beyond are not looked for

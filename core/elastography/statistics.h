@@ -32,11 +32,13 @@ struct MeanUncertainty {
   double low_kPa = 0.0, high_kPa = 0.0;  ///< mean ± 1.96 se
 };
 
+/// Statistics of one slice of the map.
 struct SliceStatistics {
   int slice = 0;  ///< k index of the map
   Statistics statistics;
 };
 
+/// Which voxels of a region of interest are measured.
 struct MeasureOptions {
   double confidenceThreshold = defaults::confidenceThreshold;  ///< of 1; 0 takes every voxel
   int erosion_pixels = 0;                                      ///< inner region of interest, in each slice
@@ -45,6 +47,7 @@ struct MeasureOptions {
   double poisson = defaults::poisson;    ///< for the conversion to the other modulus
 };
 
+/// Stiffness of a region of interest.
 struct Measurement {
   StiffnessQuantity quantity = StiffnessQuantity::Shear;  ///< of every *_kPa below but youngs and shear
   Statistics pooled;

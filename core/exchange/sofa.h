@@ -26,6 +26,7 @@ struct SofaOptions {
   std::size_t matrixDofLimit = 30000;  ///< above, K and M are not written beside the node
 };
 
+/// What was exported for SOFA.
 struct SofaExport {
   std::vector<std::filesystem::path> files;  ///< what was written; the scene to run first
   std::vector<std::string> notes;            ///< where SOFA's model differs from the scene's, in words

@@ -14,6 +14,7 @@ struct Components {
   std::vector<std::size_t> voxels;  ///< voxels[n − 1]: size of part n
 };
 
+/// The parts of a mask: inside voxels that hang together over faces.
 Components components(const Mask& mask);
 
 /// The largest part; empty for an empty mask.

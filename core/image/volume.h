@@ -24,8 +24,10 @@ struct Volume {
   const T& at(const Eigen::Vector3i& ijk) const { return values[grid.linear(ijk)]; }
 };
 
+/// One number per voxel.
 using ScalarVolume = Volume<float>;
 using Mask = Volume<std::uint8_t>;  ///< 0 outside, 1 inside
+/// One label per voxel, 0 for none.
 using LabelMap = Volume<std::int32_t>;
 /// Displacement of the material that rests at the voxel centre, LPS components, mm.
 using DisplacementField = Volume<Eigen::Vector3f>;

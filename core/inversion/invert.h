@@ -53,6 +53,7 @@ struct Inversion {
 /// Throws BadInput: no frequency, density not positive, window without room, curl without three directions.
 Inversion invert(Waves waves, const InversionOptions& options, const Progress& progress = {});
 
+/// What is taken as shear stiffness: |G*|, or ρ c² by the speed c of the wave.
 enum class ShearMeasure { Magnitude, WaveSpeed };
 
 /// As a stiffness map with its confidence, for statistics and simulation. Voxels without a modulus are not finite.

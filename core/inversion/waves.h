@@ -36,12 +36,14 @@ PhaseScale phaseScale(const std::vector<image::ScalarVolume>& phases);
 /// Applies a scale in place.
 void toRadians(image::ScalarVolume& phase, const PhaseScale& scale);
 
+/// How steps of 2π are taken out of the phase.
 enum class Unwrapping {
   Temporal,  ///< differences of consecutive offsets, wrapped into ± π: right while no step of the wave exceeds π
   Quality,   ///< these differences unwrapped in each slice, best voxels first [ghiglia1998]
   Auto       ///< Temporal; Quality for a direction where wrapped steps jump from voxel to voxel
 };
 
+/// How waves are made of phase offsets.
 struct WaveOptions {
   Unwrapping unwrapping = Unwrapping::Auto;
   std::optional<image::Mask> mask;  ///< voxels with signal; empty: found from the temporal noise (N ≥ 4)
@@ -51,6 +53,7 @@ struct WaveOptions {
 struct Waves {
   image::Grid grid;
   image::Mask mask;  ///< voxels with signal
+  /// Motion along one encoding direction.
   struct Direction {
     Eigen::Vector3d encoding_lps = Eigen::Vector3d::Zero();
     ComplexVolume wave;                ///< rad

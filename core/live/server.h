@@ -11,6 +11,7 @@
 
 namespace glisson::live {
 
+/// What is served, where, and how often.
 struct ServerOptions {
   int port = 18944;                ///< OpenIGTLink's own; 0 = any free one
   std::string bind = "127.0.0.1";  ///< address to listen on: this computer alone; "0.0.0.0" for every network

@@ -55,6 +55,7 @@ class CondensedModel {
   SolveReport worst_;
 };
 
+/// Steps, damping and basis of a condensed model in motion.
 struct CondensedDynamicOptions {
   double h_s = 1e-3;
   int vectors = 8;  ///< per input

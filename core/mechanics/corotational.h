@@ -19,6 +19,7 @@ struct HexResponse {
   HexMatrix tangent_N_m = HexMatrix::Zero();  ///< untouched where not asked for
 };
 
+/// Which tangent of an element is computed.
 enum class Tangent {
   None,
   Exact,    ///< second derivative of the energy

@@ -94,12 +94,14 @@ struct TimeSteps {
 /// Throws BadInput for h_s ≤ 0, end_s < 0, values that are not finite, more than 1e9 steps.
 TimeSteps timeSteps(double h_s, double end_s);
 
+/// State of motion at the end of a time step.
 struct DynamicState {
   int step = 0;
   double t_s = 0.0;
   Eigen::VectorXd q, v, a;  ///< m, m/s, m/s² (a by implicit Euler: change of v over the last step / h)
 };
 
+/// Time scheme, steps, damping and load of a motion.
 struct DynamicOptions {
   TimeScheme scheme = TimeScheme::ImplicitEuler;
   double spectralRadius = 0.8;  ///< generalised alpha: what a step leaves of the fastest motions, 0 to 1
@@ -120,12 +122,14 @@ inline bool isAtRest(double unbalance, double hvNorm, double qNorm, double toler
   return tolerance > 0.0 && unbalance <= tolerance && hvNorm <= tolerance * qNorm;
 }
 
+/// Energies at one time.
 struct StepEnergy {
   double kinetic_J = 0.0, elastic_J = 0.0;
   double load_J = 0.0;  ///< potential of the load, −fᵀq
   double total_J() const { return kinetic_J + elastic_J + load_J; }
 };
 
+/// A motion as integrated.
 struct Trajectory {
   DynamicState last;
   std::vector<double> times_s;          ///< 0 and the end of every step

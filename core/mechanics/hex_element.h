@@ -8,6 +8,7 @@
 
 namespace glisson::mechanics {
 
+/// Matrix of a box element: 8 corners, x, y, z each.
 using HexMatrix = Eigen::Matrix<double, 24, 24>;
 
 /// Isotropic elasticity for unit Young's modulus; strain order xx yy zz xy yz zx, engineering shear. poisson in (−1,

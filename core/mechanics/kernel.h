@@ -30,6 +30,7 @@ constexpr int leastNodesOf(Kernel kernel, int order) {
   return kernel == Kernel::Mls ? 8 : order == 1 ? 27 : 64;
 }
 
+/// Kernel, order and reach of the shape functions of frames.
 struct KernelOptions {
   Kernel kernel = Kernel::Wendland;
   int order = 1;  ///< 1: affine frames, 4 functions (12 degrees of freedom); 2: quadratic, 10 (30); Mls: of the basis

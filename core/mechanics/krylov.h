@@ -24,6 +24,7 @@ template <class T, class Z = T>
 using PreconditioningOf = std::function<void(const std::vector<T>& r, std::vector<Z>& z)>;
 using Preconditioning = PreconditioningOf<double>;
 
+/// When conjugate gradients stop.
 struct KrylovOptions {
   int limit = 1000;
   double tolerance = 1e-8;  ///< on ‖b − A x‖ / ‖b‖, recomputed in T before it is believed
@@ -35,6 +36,7 @@ struct KrylovOptions {
   bool energyToo = false;  ///< also asks √(rᵀM⁻¹r / bᵀM⁻¹b) ≤ tolerance: bounds the error where contrast is strong
 };
 
+/// How conjugate gradients ended.
 struct KrylovResult {
   SolveStatus status = SolveStatus::StoppedAtLimit;
   int iterations = 0;

@@ -16,6 +16,7 @@ namespace glisson::mechanics {
 /// fixed degrees of freedom. Thread-parallel, the same bits with any number of threads.
 template <class T>
 struct LatticeOperator {
+  /// A spring at a node slot: a symmetric 3 × 3 matrix.
   struct SlotSpring {
     std::size_t slot = 0;
     std::array<T, 6> k{};  ///< xx xy xz yy yz zz

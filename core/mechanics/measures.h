@@ -29,6 +29,7 @@ struct CellMeasures {
 /// a wrong size, BadInput where u is not finite.
 CellMeasures measureCells(const VoxelMesh& mesh, const NodalField& u_m, StrainMeasure measure = StrainMeasure::Small);
 
+/// Strain, rotation and displacement of a body in a few numbers.
 struct DeformationSummary {
   double maxStrain = 0.0;  ///< largest |principal strain|, unitless
   double p95Strain = 0.0;  ///< 95 % of the volume strains less
@@ -41,6 +42,7 @@ struct DeformationSummary {
   double maxDisplacement_m = 0.0;
   double meanDisplacement_m = 0.0;  ///< over nodes
 };
+/// Over all filled cells, each with its whole volume. Throws as measureCells.
 DeformationSummary summarise(const VoxelMesh& mesh, const NodalField& u_m,
                              StrainMeasure measure = StrainMeasure::Small);
 DeformationSummary summarise(const CellMeasures& cells, const NodalField& u_m);

@@ -16,6 +16,7 @@
 
 namespace glisson::mechanics {
 
+/// Frames of a mesh-free model and their shape functions.
 struct MeshfreeOptions {
   int frames = 200;  ///< fewer are used, with a note, where the voxels are too coarse for so many
   Kernel kernel = Kernel::Wendland;

@@ -9,6 +9,7 @@
 
 namespace glisson::mechanics {
 
+/// Smoother and coarsest level of the multigrid.
 struct MultigridOptions {
   int degree = 5;             ///< of the Chebyshev smoother, before and after each coarse correction
   double smoothed = 24;       ///< the smoother acts on eigenvalues of D⁻¹K in [λmax / smoothed, λmax]

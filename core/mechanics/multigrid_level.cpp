@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "mechanics/spectral_bound.h"
+#include "mechanics/vector_lanes.h"
 
 namespace glisson::mechanics {
 namespace {
@@ -71,11 +72,11 @@ void forParents(const RowLattice& coarse, const Halved& halved, int i, int j, in
 void chebyshevStart(std::size_t begin, std::size_t end, float a, bool fromZero, const float* inverseDiagonal,
                     const float* r, float* d, float* x) {
   if (fromZero) {
-#pragma GCC ivdep
+    GLISSON_INDEPENDENT
     for (std::size_t i = begin; i < end; ++i) x[i] = d[i] = a * inverseDiagonal[i] * r[i];
     return;
   }
-#pragma GCC ivdep
+  GLISSON_INDEPENDENT
   for (std::size_t i = begin; i < end; ++i) {
     d[i] = a * inverseDiagonal[i] * r[i];
     x[i] += d[i];
@@ -85,7 +86,7 @@ void chebyshevStart(std::size_t begin, std::size_t end, float a, bool fromZero, 
 /// r −= y; d = a d + b D⁻¹ r; x += d.
 void chebyshevStep(std::size_t begin, std::size_t end, float a, float b, const float* inverseDiagonal, const float* y,
                    float* r, float* d, float* x) {
-#pragma GCC ivdep
+  GLISSON_INDEPENDENT
   for (std::size_t i = begin; i < end; ++i) {
     r[i] -= y[i];
     d[i] = a * d[i] + b * inverseDiagonal[i] * r[i];

@@ -73,6 +73,7 @@ struct Spring {
   Eigen::Matrix3d k_N_m = Eigen::Matrix3d::Zero();
 };
 
+/// What holds a body; without any it floats.
 struct Supports {
   std::vector<Fixation> fixations;
   std::vector<Spring> springs;  ///< several on one node add up
@@ -88,6 +89,7 @@ struct Problem {
 /// How a solve ended. Only Converged results are drawn unmarked.
 enum class SolveStatus { Converged, StoppedAtLimit, Indefinite, NotFinite };
 
+/// How a solve went.
 struct SolveReport {
   std::string kind;  ///< "multigrid-pcg", "factorised", "cg", ... and why, where "auto" chose
   std::string why;
@@ -103,9 +105,12 @@ struct SolveReport {
 /// Hexahedron formulation: nine incompatible modes (condensed), B-bar, or plain trilinear full integration.
 enum class HexElement { Incompatible, BBar, H8 };
 
+/// Method of a linear solve; Auto chooses by size and says why (SolveReport::why).
 enum class SolverKind { Auto, Cg, Factorised, Multigrid };
+/// Preconditioner of plain conjugate gradients.
 enum class Preconditioner { None, Jacobi, BlockJacobi };
 
+/// Method, element and accuracy of a linear solve.
 struct SolverOptions {
   SolverKind kind = SolverKind::Auto;
   HexElement element = HexElement::Incompatible;
@@ -118,6 +123,7 @@ struct SolverOptions {
   bool keepsTolerance() const { return toleranceAsked || tolerance != usualTolerance; }
 };
 
+/// Displacements and what follows from them.
 struct Solution {
   NodalField u_m;
   NodalField reaction_N;  ///< at fixed degrees of freedom and springs: force of the supports on the body

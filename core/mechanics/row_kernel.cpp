@@ -17,9 +17,9 @@ GLISSON_INLINE void addRowOf(const RowTask<T>& task, const RowBlocks<T>& blocks)
     V w[2][4][3];
     loadRows(task, i, w);
     transformRows(w);
-    const V E = *reinterpret_cast<const V*>(task.E + i);
+    const V E = load<V>(task.E + i);
     V rho = {};
-    if constexpr (WithMass) rho = *reinterpret_cast<const V*>(task.rho + i);
+    if constexpr (WithMass) rho = load<V>(task.rho + i);
 #pragma GCC unroll 8
     for (int p = 0; p < 8; ++p) {
       const auto& B = blocks.b[static_cast<std::size_t>(p)];
@@ -67,8 +67,7 @@ __attribute__((target("arch=x86-64-v3"))) void addRowAvx2(const RowTask<T>& task
 }
 
 template <class T>
-__attribute__((target("arch=x86-64-v4,prefer-vector-width=512"))) void addRowAvx512(const RowTask<T>& task,
-                                                                                    const RowBlocks<T>& blocks) {
+GLISSON_AVX512 void addRowAvx512(const RowTask<T>& task, const RowBlocks<T>& blocks) {
   addRowWith<T, 64>(task, blocks);
 }
 #endif

@@ -16,6 +16,7 @@ class RowLattice {
  public:
   static constexpr int pad = 16;
 
+  /// The node slots of one row along x.
   struct Row {
     int begin = 0;           ///< first i
     int length = 0;          ///< slots

@@ -11,6 +11,7 @@
 
 namespace glisson::mechanics {
 
+/// How many frames, and where they sit densest.
 struct SiteOptions {
   int count = 200;
   int iterations = 25;          ///< of Lloyd's method

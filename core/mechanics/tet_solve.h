@@ -23,6 +23,7 @@ struct TetProblem {
 /// on wrong sizes.
 Solution solveTets(const TetProblem& problem, const SolverOptions& options = {}, const Progress& progress = {});
 
+/// Shape functions of tetrahedra: 4 or 10 nodes.
 enum class TetOrder { Linear, Quadratic };
 
 /// A voxel problem on tetrahedra. Nodes of the voxel mesh are the corners. In T10 a middle node is held along an axis

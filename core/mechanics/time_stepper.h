@@ -11,6 +11,7 @@ namespace glisson::mechanics {
 /// the rest, which is M-orthogonal to them.
 class TimeStepper {
  public:
+  /// Energies and unbalance before a step.
   struct Seen {
     double kinetic_J = 0, elastic_J = 0, unbalance_N = 0;  ///< ‖f − K q‖
   };

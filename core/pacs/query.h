@@ -23,12 +23,14 @@ struct Query {
   std::size_t limit = 1000;  ///< studies, and series of all studies together
 };
 
+/// A series that a server knows.
 struct FoundSeries {
   std::string uid, modality, description;
   int number = 0;
   int objects = -1;  ///< -1: the server does not say
 };
 
+/// A study that a server knows.
 struct FoundStudy {
   std::string uid, date, description;
   std::vector<std::string> modalities;
@@ -39,6 +41,7 @@ struct FoundStudy {
   std::vector<FoundSeries> series;                ///< only where Query::series; by number, then UID
 };
 
+/// A server's answer to a query.
 struct Found {
   std::vector<FoundStudy> studies;  ///< by date, then UID
   bool truncated = false;           ///< there were more than Query::limit

@@ -26,6 +26,7 @@ struct Received {
   std::size_t associations = 0, rejected = 0;
 };
 
+/// Where to listen, whom to let in, and when to stop.
 struct ReceiveOptions {
   int port = 0;                      ///< 1 ... 65535
   std::string bind = "127.0.0.1";    ///< IPv4 address to listen on: this computer alone; "0.0.0.0" for every network

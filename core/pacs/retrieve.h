@@ -8,6 +8,7 @@
 
 namespace glisson::pacs {
 
+/// What to fetch from a server, how, and where to.
 struct RetrieveOptions {
   std::string uid;       ///< of a study or a series; which one is found out
   std::string studyUid;  ///< of the series' study, for servers that cannot find it by themselves; may be empty
@@ -20,6 +21,7 @@ struct RetrieveOptions {
   Limits limits;
 };
 
+/// What a server has sent.
 struct Retrieved {
   Received received;
   std::string level;  ///< "study" or "series"

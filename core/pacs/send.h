@@ -14,6 +14,7 @@ struct NotSent {
   std::string reason;
 };
 
+/// What was sent to a server, and what it did not take.
 struct Sent {
   std::size_t objects = 0;
   std::uint64_t bytes = 0;

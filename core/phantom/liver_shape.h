@@ -23,12 +23,14 @@ inline constexpr std::array<std::pair<LiverShape, std::string_view>, 6> liverSha
      {LiverShape::Riedel, "riedel"},
      {LiverShape::LargeLeft, "large-left"}}};
 
+/// As the command line names it.
 inline std::string nameOf(LiverShape shape) {
   for (const auto& [s, name] : liverShapes)
     if (s == shape) return std::string(name);
   return "usual";
 }
 
+/// Empty for a name that is none of them.
 inline std::optional<LiverShape> liverShapeNamed(std::string_view name) {
   for (const auto& [s, n] : liverShapes)
     if (n == name) return s;

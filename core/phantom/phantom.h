@@ -47,7 +47,9 @@ struct PhantomTruth {
   std::vector<VesselBranch> vessels;
 };
 
+/// Colours, 0 to 255.
 using RgbVolume = image::Volume<std::array<std::uint8_t, 3>>;
+/// Stored values of signed 16-bit images.
 using Int16Volume = image::Volume<std::int16_t>;
 
 /// A synthetic patient in memory. The MRE planes are every fourth MRI plane, in-plane grids are the same.

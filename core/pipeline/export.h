@@ -24,6 +24,7 @@ struct ExportRequest {
   std::optional<StiffnessQuantity> quantity;  ///< of exported stiffness; empty: as measured
 };
 
+/// What an export has written.
 struct Exported {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> warnings;

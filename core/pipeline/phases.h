@@ -20,6 +20,7 @@ struct PhaseRequest {
   std::optional<double> radiansPerUnit;        ///< empty: told from the values
 };
 
+/// Wave phases as read, in radians.
 struct LoadedPhases {
   std::vector<inversion::PhaseOffsets> directions;
   std::optional<double> frequency_Hz;  ///< where the files say so

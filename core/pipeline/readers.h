@@ -33,6 +33,7 @@ struct ReaderIntervals {
   std::optional<elastography::Interval> stiffnessDifference_kPa;  ///< with an elastogram
 };
 
+/// What all readers say of one case.
 struct ReadersOfCase {
   std::string name;                                       ///< of the files, without extension
   std::vector<double> volume_mL;                          ///< of each reader
@@ -42,6 +43,7 @@ struct ReadersOfCase {
   std::vector<ReaderIntervals> intervals;                 ///< of each agreement
 };
 
+/// Readers compared over all cases.
 struct ReaderStudy {
   std::vector<ReadersOfCase> cases;
   /// Over cases, where there are enough (reliability: 2, limits of agreement: 3); limits: second against first reader.

@@ -9,6 +9,7 @@
 
 namespace glisson::pipeline {
 
+/// Where a recorded run and its inputs are.
 struct ReplayOptions {
   std::filesystem::path scene;   ///< empty: scene.json beside the record
   std::filesystem::path root;    ///< where the inputs are now; empty: where the scene says
@@ -22,6 +23,7 @@ struct ReplayedFile {
   bool identical() const { return recorded == found; }
 };
 
+/// What a run gave then and gives now.
 struct ReplayResult {
   bool numbersIdentical = false;  ///< every number and word of the record but times, memory and version
   std::vector<ReplayedFile> outputs;

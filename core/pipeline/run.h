@@ -21,6 +21,7 @@
 
 namespace glisson::pipeline {
 
+/// What a run writes.
 struct RunOptions {
   std::filesystem::path output;  ///< folder for results and pictures; empty: nothing is written
   render::Palette palette = render::Palette::RedBlue;

@@ -50,6 +50,7 @@ struct MapMeaning {
   bool mayBeUneven = false;  ///< for statistics alone: slices may lie unevenly (StiffnessMap::unevenSlices_mm)
 };
 
+/// A stiffness map as read, with where it comes from.
 struct LoadedStiffness {
   elastography::StiffnessMap map;
   std::string patientKey;

@@ -18,6 +18,7 @@ class Scale {
   void setPixels(double atLow, double atHigh);
 
   double operator()(double value) const;
+  /// A mark of the scale.
   struct Tick {
     double value;
     std::string text;  ///< empty for a minor tick

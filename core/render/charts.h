@@ -21,6 +21,7 @@ struct ReferenceLine {
   Rgb colour{230, 126, 0};
 };
 
+/// Title and range of an axis.
 struct Axis {
   std::string title{};  ///< with its unit, e.g. "Run time (ms)"
   bool logarithmic = false;
@@ -28,6 +29,7 @@ struct Axis {
   std::optional<double> high{};
 };
 
+/// How many values fall into each bin.
 struct Histogram {
   std::string title{};
   Axis x{}, y{.title = "Number of cases"};
@@ -37,7 +39,9 @@ struct Histogram {
   std::string caption{};
 };
 
+/// Boxes side by side, one per group of values.
 struct BoxPlot {
+  /// A group of values.
   struct Box {
     std::string label{};
     std::vector<double> values{};
@@ -51,6 +55,7 @@ struct BoxPlot {
 
 /// Lines through points, points alone, or both.
 struct XyChart {
+  /// A row of points with its place in the legend.
   struct Series {
     std::string name{};
     std::vector<double> x{}, y{};
@@ -67,6 +72,7 @@ struct XyChart {
   std::string caption{};
 };
 
+/// Size of a chart, pixels.
 struct ChartSize {
   int width = 1600;
   int height = 1100;

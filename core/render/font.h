@@ -15,6 +15,7 @@ struct TextMask {
   std::vector<std::uint8_t> coverage;
 };
 
+/// Size, slope and weight of a line of text.
 struct TextShape {
   double size_px = 16.0;   ///< em size
   double angle_deg = 0.0;  ///< counter-clockwise about the pen's start

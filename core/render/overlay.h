@@ -52,6 +52,7 @@ struct RetractionScene {
 /// Arrows that one picture shows at most.
 inline constexpr int mostArrows = 400;
 
+/// What an overlay of one slice shows.
 struct SliceOverlayOptions {
   int slice = -1;  ///< k of the MRI grid; −1 = the slice with the largest MRE-atlas difference inside the liver
   Palette palette = Palette::RedBlue;
@@ -85,6 +86,7 @@ std::vector<Picture> sliceOverlays(const RetractionScene& scene, const std::vect
 /// displacement.
 int sliceOfLargestDifference(const RetractionScene& scene);
 
+/// Pixels of an overlay by what they show.
 struct CountedPixels {
   std::size_t redOnly = 0, blueOnly = 0, both = 0;
 };
@@ -113,6 +115,7 @@ enum class Shown3D { Answers, PressureMre, PressureAtlas };
 /// From behind and below, a little from the right: where a bar that hoists towards anterior touches the liver.
 inline constexpr Camera3D barCamera{205.0, -28.0};
 
+/// What a 3-D picture shows, and from where.
 struct SceneOptions3D {
   Shown3D shown = Shown3D::Answers;  ///< pressure: BadArgument where the scene has no rigid bar with that answer
   Palette palette = Palette::RedBlue;

@@ -11,6 +11,7 @@
 
 namespace glisson::render {
 
+/// A colour, 0 to 255.
 struct Rgb {
   std::uint8_t r = 0, g = 0, b = 0;
   bool operator==(const Rgb&) const = default;
@@ -19,6 +20,7 @@ struct Rgb {
 /// Pixel position, x to the right, y down; the centre of the first pixel is (0.5, 0.5).
 using Point = Eigen::Vector2d;
 
+/// How a line is drawn; width in pixels, alpha from 0 (unseen) to 1.
 struct Stroke {
   Rgb colour;
   double width = 1.0;
@@ -26,8 +28,10 @@ struct Stroke {
   double alpha = 1.0;
 };
 
+/// Which end of a line of text lies at its place.
 enum class Anchor { Left, Centre, Right };
 
+/// How a line of text is drawn.
 struct TextStyle {
   double size_px = 16.0;
   Rgb colour;

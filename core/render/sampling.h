@@ -49,6 +49,7 @@ class DeformedCells;
 /// Finds the rest position x of the material that is at y: x + u(x) = y.
 class InverseMap {
  public:
+  /// Where the material was at rest.
   struct Result {
     Eigen::Vector3d x_lps;
     double residual_mm = 0.0;  ///< ‖x + u(x) − y‖

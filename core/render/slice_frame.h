@@ -11,12 +11,14 @@
 
 namespace glisson::render {
 
+/// A line of the legend.
 struct LegendItem {
   Rgb colour;
   std::string text;
   bool asLine = false;  ///< a stroke instead of a filled swatch
 };
 
+/// The scale of a coloured map.
 struct ColourBar {
   ColourMap map;
   double low = 0.0, high = 1.0;

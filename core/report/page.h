@@ -12,9 +12,11 @@
 
 namespace glisson::report {
 
+/// A heading of a section.
 struct Heading {
   std::string text;
 };
+/// A paragraph of text.
 struct Paragraph {
   std::string text;
 };
@@ -22,9 +24,11 @@ struct Paragraph {
 struct Warning {
   std::string text;
 };
+/// A list of points.
 struct List {
   std::vector<std::string> items;
 };
+/// A table of text.
 struct Table {
   std::vector<std::string> header;             ///< empty: two columns, what and value
   std::vector<std::vector<std::string>> rows;  ///< all of the same length

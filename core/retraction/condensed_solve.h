@@ -9,6 +9,7 @@
 
 namespace glisson::retraction {
 
+/// The answer of the condensed model.
 struct CondensedAnswer {
   mechanics::Solution solution;
   int steps = 0;

@@ -8,6 +8,7 @@
 
 namespace glisson::retraction {
 
+/// The answer on tetrahedra.
 struct DelaunayAnswer {
   mechanics::Solution solution;  ///< u_m on the nodes of the voxel mesh; reaction_N on those of the tetrahedra
   int dofs = 0;

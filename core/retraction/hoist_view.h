@@ -35,6 +35,7 @@ class HoistView {
   const Eigen::Vector2d& low_mm() const { return low_mm_; }
   const Eigen::Vector2d& high_mm() const { return high_mm_; }
 
+  /// The body along the hoist.
   struct Ray {
     double depth_mm;      ///< along the hoist, from the origin of LPS
     double thickness_mm;  ///< of the first stretch inside

@@ -80,6 +80,7 @@ struct LiveLivers {
 LiveLivers makeLive(const Model& model, const Model* atlas, const Setup& setup,
                     const std::vector<Eigen::Vector3d>& points_mm, LiveKind kind, const Progress& progress = {});
 
+/// A frame of both livers.
 struct LiveAnswers {
   LiveAnswer mre, atlas;
 };

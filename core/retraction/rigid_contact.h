@@ -43,6 +43,7 @@ mechanics::NodalField onModelNodes(const Body& body, const ContactScene& scene, 
 struct PlacedBar {
   Retractor bar;             ///< at_mm and axis set
   std::optional<Pose> pose;  ///< empty on a box
+  /// A place that was tried for the bar.
   struct Tried {
     double height_mm = 0.0;  ///< above the lowest point of the right lobe
     double borne = 0.0;      ///< share of the force that the weaker of both livers bears, 1.1 at most

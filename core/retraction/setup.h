@@ -45,6 +45,7 @@ using Region = std::variant<FaceRegion, SurfaceRegion, BoxRegion, PlaneRegion, M
 
 /// Folds of peritoneum that tie the liver to the diaphragm and the abdominal wall.
 enum class LigamentName { Falciform, Coronary, LeftTriangular, RightTriangular, Other };
+/// A ligament as fibres from the liver to where they spring from.
 struct LigamentSpec {
   LigamentName name = LigamentName::Other;
   /// Of the whole ligament along its fibres. Empty: two sheets of peritoneum, each as stiff as the capsule of which it
@@ -58,6 +59,7 @@ struct LigamentSpec {
   static constexpr double falciformLength_mm = 30.0, otherLength_mm = 15.0;  ///< defaults; our own estimates
 };
 
+/// What holds a part of the body.
 struct SupportSpec {
   enum class Kind { Fixed, Spring, Ligament } kind = Kind::Fixed;
   Region region;
@@ -70,9 +72,11 @@ struct SupportSpec {
   LigamentSpec ligament{};  ///< Ligament; large deformation only
 };
 
+/// A force on all of the body, such as a weight.
 struct BodyForce {
   Eigen::Vector3d N_per_m3;
 };
+/// A force per area on a part of the surface.
 struct Traction {
   Region region;
   Eigen::Vector3d kPa;
@@ -89,7 +93,9 @@ enum class ContactKind { Rigid, Patch };
 /// Straight: a capsule, length_mm between the centres of its round ends. Hook: the same length bent to an arc of a
 /// quarter turn across the hoist, as the blade of a Nathanson retractor.
 enum class BarShape { Straight, Hook };
+/// A retractor's bar, where it lies, and how it is driven.
 struct Retractor {
+  /// Both ends accepted.
   struct Range {
     double least, most;
   };
@@ -111,7 +117,9 @@ struct Retractor {
 };
 using LoadSpec = std::variant<BodyForce, Traction, Pressure, Retractor>;
 
+/// Elements of the body: hexahedra, tetrahedra, or frames without a mesh.
 enum class ModelKind { FemHex, FemTet, Meshfree };
+/// How the body is made of elements.
 struct ModelSpec {
   ModelKind kind = ModelKind::FemHex;
   mechanics::HexElement element = mechanics::HexElement::Incompatible;
@@ -121,6 +129,7 @@ struct ModelSpec {
   mechanics::MeshfreeOptions meshfree;
 };
 
+/// At rest, or in motion from rest.
 struct AnalysisSpec {
   bool dynamic = false;
   double h_ms = 1.0;

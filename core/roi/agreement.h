@@ -21,6 +21,7 @@ struct Agreement {
   std::vector<int> slicesOnlyInA, slicesOnlyInB;  ///< k
 };
 
+/// Which border the distances between two masks run along.
 enum class Border {
   Surface,  ///< voxels with an outside neighbour over any face; distances in space
   Outline   ///< in each slice on its own: for few, thick slices. Slices that only one holds take no part in distances

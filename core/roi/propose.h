@@ -21,6 +21,7 @@ struct ProposalOptions {
   double most_mL = 4000.0;     ///< of an organ: what is larger has leaked and is refused
 };
 
+/// A proposed outline, to be corrected.
 struct Proposal {
   image::Mask mask;              ///< on the image's grid
   double low = 0.0, high = 0.0;  ///< intensities accepted at the seed

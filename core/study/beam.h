@@ -50,6 +50,7 @@ inline constexpr const char* converged3d = "converged 3-D";
 inline constexpr const char* timoshenko = "Timoshenko (Poisson-free root)";
 inline constexpr const char* eulerBernoulli = "Euler-Bernoulli";
 
+/// The validation beam: every method against its references.
 struct BeamStudy {
   BeamOptions options;
   std::vector<Row> rows;  ///< every method against the three references; against Timoshenko with the Poisson-free root

@@ -8,6 +8,7 @@
 
 namespace glisson::study {
 
+/// The validation beam's load and extent.
 struct BeamOptions {
   double poisson = 0.45;
   double tip_mm = 1.0;  ///< Euler-Bernoulli tip deflection, which sets the load

@@ -15,6 +15,7 @@ inline constexpr const char* hertz = "Hertz, line contact";
 inline constexpr const char* calculix = "CalculiX 2.20, C3D20R, rigid cylinder";
 inline constexpr const char* elastica = "Euler's elastica";
 
+/// Extent of the contact study.
 struct ContactStudyOptions {
   bool quick = false;  ///< the coarser resolutions only
 };

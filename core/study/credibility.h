@@ -23,6 +23,7 @@ inline constexpr int credibilityTopics = 6;
 /// "Context of use", ...
 std::string nameOf(CredibilityTopic topic);
 
+/// What became of a line of evidence.
 enum class EvidenceState {
   Met,     ///< a figure that reaches what was wanted before it was computed
   Missed,  ///< one that does not
@@ -53,11 +54,13 @@ struct Evidence {
   std::vector<EvidenceFigure> figures;  ///< what `found` is made of
 };
 
+/// Extent of the credibility page.
 struct CredibilityOptions {
   bool quick = false;      ///< coarser grids, and without the uncertainty of the patient
   std::uint64_t seed = 1;  ///< of the synthetic patient
 };
 
+/// The credibility page.
 struct Credibility {
   CredibilityOptions options;
   std::vector<Evidence> lines;  ///< in the order of the topics

@@ -19,6 +19,7 @@ struct StabilityCase {
   double seconds = 0.0;
 };
 
+/// Extent of the sweep.
 struct StabilityOptions {
   bool quick = false;  ///< smaller grids, without the 1 M degrees of freedom
 };

@@ -10,12 +10,14 @@
 
 namespace glisson::study {
 
+/// Extent of the study of error against run time.
 struct TradeoffOptions {
   bool quick = false;           ///< fewer variants
   int referenceCells = 400000;  ///< the reference splits every cell into eight up to this many cells
   double budget_s = 40.0;       ///< no further variant is begun after this; those left out are named
 };
 
+/// Error against run time of one scene.
 struct TradeoffStudy {
   std::vector<Row> rows;     ///< one per variant; dofs and times are its own
   std::string reference;     ///< what the errors are against, in words

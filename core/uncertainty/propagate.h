@@ -24,6 +24,7 @@ struct Check {
   double first_order_mm = 0.0;   ///< the same, to first order
 };
 
+/// How sure a retraction is.
 struct Uncertainty {
   bool known = false;
   std::string why;  ///< where it is not

@@ -11,6 +11,7 @@
 
 namespace glisson::uncertainty {
 
+/// Both ends of an interval of 95 %.
 struct Interval {
   double low = 0.0, high = 0.0;
 };
@@ -52,6 +53,7 @@ struct FirstOrder {
   Eigen::VectorXd travelGain, textbookTravelGain;  ///< mm per column
 };
 
+/// Intervals of the landmarks and figures, and what drives them.
 struct Spread {
   std::vector<LandmarkSpread> landmarks;
   std::optional<Headline> headline;

@@ -30,6 +30,9 @@ target_include_directories(glisson_itk SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
 target_link_libraries(glisson_itk INTERFACE ${ITK_LIBRARIES})
 # ITK's headers would bring their own, older Eigen, which cannot share a source file with ours.
 target_compile_definitions(glisson_itk INTERFACE ITK_USE_SYSTEM_EIGEN)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  target_compile_options(glisson_itk INTERFACE "$<BUILD_INTERFACE:SHELL:-include ${CMAKE_CURRENT_LIST_DIR}/itk_under_clang.h>")
+endif()
 
 find_package(OpenGL REQUIRED COMPONENTS EGL OpenGL)
 

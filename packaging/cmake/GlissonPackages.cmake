@@ -1,6 +1,13 @@
 # Debian packages by CPack: glisson (component app), libglisson-dev (component dev) and python3-glisson (component python).
 # packaging/deb builds them.
 set(CPACK_GENERATOR DEB)
+# What they hold, without the tests.
+add_custom_target(packaged DEPENDS glisson-cli ${glisson_exported})
+foreach(target glisson glisson_python)
+  if(TARGET ${target})
+    add_dependencies(packaged ${target})
+  endif()
+endforeach()
 set(CPACK_PACKAGE_NAME glisson)
 set(GLISSON_CONTACT_MAIL "maintainers@glisson.invalid" CACHE STRING "Address of the packages' maintainer")
 set(CPACK_PACKAGE_CONTACT "The Glisson authors <${GLISSON_CONTACT_MAIL}>")

@@ -8,7 +8,8 @@ import unittest
 from support import ROOT
 
 FILES = (ROOT / ".github/workflows/checks.yml", ROOT / ".gitlab-ci.yml")
-SCRIPTS = (".ci/run", "packaging/deb", "packaging/check-packages", "packaging/install", "packaging/run", "packaging/test")
+SCRIPTS = (".ci/run", "packaging/deb", "packaging/check-packages", "packaging/install", "packaging/run", "packaging/test",
+           "packaging/tree", "packaging/check")
 
 
 class Workflows(unittest.TestCase):
@@ -25,9 +26,10 @@ class Workflows(unittest.TestCase):
             text = file.read_text()
             called = set(re.findall(r"(?<![\w/])(\.ci/run|packaging/[\w-]+)\b", text))
             with self.subTest(file=file.name):
-                self.assertLessEqual({".ci/run", "packaging/deb", "packaging/check-packages"}, called)
+                self.assertLessEqual({".ci/run", "packaging/check", "packaging/deb", "packaging/check-packages", "packaging/tree"}, called)
                 self.assertLessEqual(called, set(SCRIPTS))
                 self.assertRegex(text, r"\.deb")
+                self.assertRegex(text, r"\.tar\.gz")
                 self.assertRegex(text, r"(?i)tag")
 
     def test_the_scripts_can_be_run_and_are_bash(self):

@@ -15,6 +15,7 @@
 
 namespace glisson::dicom {
 
+/// How pixels are stored.
 enum class PixelKind { Integer, Float, Double };
 
 /// value = slope * stored + intercept

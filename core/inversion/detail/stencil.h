@@ -14,6 +14,7 @@ namespace glisson::inversion {
 /// quadratic fields.
 class Stencil {
  public:
+  /// What one voxel of the window adds to value and derivatives at its centre.
   struct Tap {
     Eigen::Vector3i offset;
     double value;              ///< 1

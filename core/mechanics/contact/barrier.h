@@ -14,6 +14,7 @@ struct Barrier {
   double width_m = 1e-3;
   double guard_m = 2e-3;
 
+  /// The barrier and its derivatives by the gap.
   struct Value {
     double energy = 0, first = 0, second = 0;  ///< φ (Pa m), φ′ (Pa, negative in contact), φ″ (Pa/m, positive)
   };

@@ -30,7 +30,7 @@ GLISSON_INLINE void volumeLaw(const Lanes<double, Bytes>& j, const Lanes<double,
 
 template <int Bytes>
 GLISSON_INLINE Lanes<double, Bytes> loadAt(const double* values, std::size_t i) {
-  return *reinterpret_cast<const Lanes<double, Bytes>*>(values + i);
+  return load<Lanes<double, Bytes>>(values + i);
 }
 
 template <SolidLaw law, int Bytes>
@@ -99,8 +99,8 @@ GLISSON_INLINE void lineariseOf(const CellModes& modes, const CellRow<double, do
   using F = typename VectorOf<float, Bytes / 2>::type;
   constexpr std::size_t lanes = static_cast<std::size_t>(Bytes) / sizeof(double);
   for (std::size_t i = 0; i < row.n; i += lanes) {
-    const auto store = [&](std::size_t array, const V& value) __attribute__((always_inline)) {
-      *reinterpret_cast<F*>(state + TangentArrays::at(array, i)) = __builtin_convertvector(value, F);
+    const auto keep = [&](std::size_t array, const V& value) __attribute__((always_inline)) {
+      store<F>(state + TangentArrays::at(array, i), __builtin_convertvector(value, F));
     };
     Triple<double, Bytes> d[7];
     if constexpr (law == SolidLaw::Linear)
@@ -132,14 +132,14 @@ GLISSON_INLINE void lineariseOf(const CellModes& modes, const CellRow<double, do
     positive = positive < -limit ? -limit : positive;
 #pragma GCC unroll 6
     for (std::size_t m = 0; m < 6; ++m) {
-      store(3 * m, d[m].x);
-      store(3 * m + 1, d[m].y);
-      store(3 * m + 2, d[m].z);
+      keep(3 * m, d[m].x);
+      keep(3 * m + 1, d[m].y);
+      keep(3 * m + 2, d[m].z);
     }
-    store(TangentArrays::p, p);
-    store(TangentArrays::positive, positive);
-    store(TangentArrays::lambda, second > 0.0 ? second : V{});
-    store(TangentArrays::mu, mu);
+    keep(TangentArrays::p, p);
+    keep(TangentArrays::positive, positive);
+    keep(TangentArrays::lambda, second > 0.0 ? second : V{});
+    keep(TangentArrays::mu, mu);
   }
 }
 
@@ -158,9 +158,8 @@ GLISSON_INLINE void loadState(const float* state, std::size_t i, Triple<float, B
   using V = Lanes<float, Bytes>;
 #pragma GCC unroll 6
   for (std::size_t m = 0; m < 6; ++m)
-    c[m] = {*reinterpret_cast<const V*>(state + TangentArrays::at(3 * m, i)),
-            *reinterpret_cast<const V*>(state + TangentArrays::at(3 * m + 1, i)),
-            *reinterpret_cast<const V*>(state + TangentArrays::at(3 * m + 2, i))};
+    c[m] = {load<V>(state + TangentArrays::at(3 * m, i)), load<V>(state + TangentArrays::at(3 * m + 1, i)),
+            load<V>(state + TangentArrays::at(3 * m + 2, i))};
 }
 
 template <int Bytes>
@@ -171,7 +170,7 @@ GLISSON_INLINE void tangentOf(const CellModes& modes, const CellRow<float, float
   V carry[4][3] = {};
   for (std::size_t i = 0; i < row.n; i += lanes) {
     const auto at = [&](std::size_t array) __attribute__((always_inline)) {
-      return *reinterpret_cast<const V*>(state + TangentArrays::at(array, i));
+      return load<V>(state + TangentArrays::at(array, i));
     };
     Triple<float, Bytes> d[7], c[6], g[6], s[7];
     loadModes(modes, row, i, d);
@@ -208,7 +207,7 @@ GLISSON_INLINE void diagonalOf(const CellModes& modes, float* const out[4], std:
   V carry[4][6] = {};
   for (std::size_t i = 0; i < n; i += lanes) {
     const auto at = [&](std::size_t array) __attribute__((always_inline)) {
-      return *reinterpret_cast<const V*>(state + TangentArrays::at(array, i));
+      return load<V>(state + TangentArrays::at(array, i));
     };
     Triple<float, Bytes> c[6], g[6];
     loadState(state, i, c);
@@ -239,8 +238,8 @@ GLISSON_INLINE void diagonalOf(const CellModes& modes, float* const out[4], std:
           V shifted;
           shiftIn(carry[r][entry], toRight, shifted, std::make_index_sequence<lanes>{});
           carry[r][entry] = toRight;
-          V& sum = *reinterpret_cast<V*>(out[r] + entry * nodes + i);
-          sum += toLeft + shifted;
+          float* sum = out[r] + entry * nodes + i;
+          store<V>(sum, load<V>(sum) + (toLeft + shifted));
         }
     }
   }
@@ -318,7 +317,7 @@ struct Table {
 GLISSON_KERNELS(Portable, 16, )
 #if defined(__x86_64__)
 GLISSON_KERNELS(Avx2, 32, __attribute__((target("arch=x86-64-v3"))))
-GLISSON_KERNELS(Avx512, 64, __attribute__((target("arch=x86-64-v4,prefer-vector-width=512"))))
+GLISSON_KERNELS(Avx512, 64, GLISSON_AVX512)
 #endif
 
 const Table& fastest() {

@@ -11,6 +11,7 @@
 /// modes and back, and the dilatation.
 namespace glisson::mechanics {
 
+/// A register of `Bytes` bytes of values T, one per cell.
 template <class T, int Bytes>
 using Lanes = typename VectorOf<T, Bytes>::type;
 

@@ -27,6 +27,7 @@ class ContactEnergy {
     std::vector<double> u;
     double s = 0;
   };
+  /// Potential, gradient and contact figures at a state.
   struct Value {
     double potential = 0;          ///< J; without the loads that follow where they have none
     std::vector<double> gradient;  ///< size() of the level; the last entry is bar force − F, or 0 where s is given

@@ -65,6 +65,7 @@ struct ContactProblem {
   std::optional<double> travel_m;  ///< of the bar
 };
 
+/// Accuracy and extent of a contact solve.
 struct ContactOptions {
   double tolerance = 1e-6;  ///< on ‖gradient‖ / load
   double zone_m = 1e-3;  ///< width of the barrier, a fifth of the bar's radius at most; half of it lies inside the body
@@ -72,6 +73,7 @@ struct ContactOptions {
   bool pathOnly = false;  ///< stop on the cells that the path is followed on
 };
 
+/// How a contact solve ended.
 enum class ContactOutcome {
   Reached,  ///< the force or the travel asked for
   Slips,    ///< the force falls with travel below what was asked for: no equilibrium beyond capacity_N
@@ -81,10 +83,12 @@ enum class ContactOutcome {
   Stopped         ///< no convergence, no reason found
 };
 
+/// A point of the path: force on the bar at a travel.
 struct PathStep {
   double travel_m = 0, force_N = 0;
 };
 
+/// The answer to a contact problem, or the last equilibrium before it ended otherwise.
 struct ContactSolution {
   Solution solution;  ///< of the last equilibrium reached; energy_J: of body, capsule, springs, bed and tethers
   ContactOutcome outcome = ContactOutcome::Stopped;

@@ -80,6 +80,7 @@ class ContactSolver {
   std::vector<State> trail_;                         ///< of the path up to its end, of the level that is worked on
 };
 
+/// Which of its passes a path is followed in.
 enum class PathKind {
   First,  ///< on the coarse cells: it is told, and proved beyond the force
   Again   ///< on finer ones, which bore less

@@ -44,6 +44,7 @@ struct Assembled {
   bool travels() const { return problem.force_N.has_value() && energy.hasBar(); }
 };
 
+/// What an equilibrium keeps for the solves that follow it.
 struct Equilibrium::Parts : Assembled {
   ContactOptions options;
   ContactEnergy::State at;

@@ -16,6 +16,7 @@ struct NewtonGoal {
   int innerLimit = 200;           ///< iterations of the inner solve with each tangent
 };
 
+/// How a minimisation ended.
 struct NewtonRun {
   bool converged = false;
   bool indefinite = false;  ///< the tangent had a direction of negative curvature at the last iteration

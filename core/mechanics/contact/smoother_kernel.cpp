@@ -10,14 +10,14 @@ namespace {
 template <class V, bool first>
 GLISSON_INLINE void stepAt(const SmootherFields& f, std::size_t i, float keep, float gain, bool fromZero) {
   const std::size_t n = f.nodes;
-  const auto at = [](auto* p) -> auto& {
-    return *reinterpret_cast<V*>(const_cast<float*>(p));
+  const auto at = [](const float* p) __attribute__((always_inline)) {
+    return load<V>(p);
   };
   V r[3];
 #pragma GCC unroll 3
   for (std::size_t c = 0; c < 3; ++c) {
     r[c] = at(f.residual + c * n + i);
-    if constexpr (!first) at(f.residual + c * n + i) = r[c] -= at(f.product + c * n + i);
+    if constexpr (!first) store<V>(f.residual + c * n + i, r[c] -= at(f.product + c * n + i));
   }
   const V xx = at(f.block + i), xy = at(f.block + n + i), xz = at(f.block + 2 * n + i);
   const V yy = at(f.block + 3 * n + i), yz = at(f.block + 4 * n + i), zz = at(f.block + 5 * n + i);
@@ -26,9 +26,8 @@ GLISSON_INLINE void stepAt(const SmootherFields& f, std::size_t i, float keep, f
 #pragma GCC unroll 3
   for (std::size_t c = 0; c < 3; ++c) {
     if constexpr (!first) d[c] += keep * at(f.step + c * n + i);
-    at(f.step + c * n + i) = d[c];
-    V& sum = at(f.sum + c * n + i);
-    sum = fromZero ? d[c] : sum + d[c];
+    store<V>(f.step + c * n + i, d[c]);
+    store<V>(f.sum + c * n + i, fromZero ? d[c] : at(f.sum + c * n + i) + d[c]);
   }
 }
 
@@ -55,7 +54,7 @@ using Steps = void (*)(const SmootherFields&, std::size_t, std::size_t, float, f
 GLISSON_SMOOTHER(Portable, 16, )
 #if defined(__x86_64__)
 GLISSON_SMOOTHER(Avx2, 32, __attribute__((target("arch=x86-64-v3"))))
-GLISSON_SMOOTHER(Avx512, 64, __attribute__((target("arch=x86-64-v4,prefer-vector-width=512"))))
+GLISSON_SMOOTHER(Avx512, 64, GLISSON_AVX512)
 #endif
 
 Steps fastest() {

@@ -12,6 +12,7 @@ namespace glisson::mechanics {
 /// How a solve with the tangent ended.
 enum class TangentOutcome { Converged, Indefinite, Limit };
 
+/// How a solve with the tangent went.
 struct TangentSolve {
   TangentOutcome outcome = TangentOutcome::Limit;
   int iterations = 0;

@@ -11,6 +11,7 @@
 #include "mechanics/contact/smoother_kernel.h"
 #include "mechanics/lattice_operator.h"
 #include "mechanics/row_sweep.h"
+#include "mechanics/vector_lanes.h"
 
 namespace glisson::mechanics {
 namespace {
@@ -273,7 +274,7 @@ void SolidLevel::applyInverseBlocks(const float* in, float* out) const {
   const std::size_t n = nodes();
   const float* b = block_.data();
   forRange(n, [&](std::size_t begin, std::size_t end) {
-#pragma GCC ivdep
+    GLISSON_INDEPENDENT
     for (std::size_t i = begin; i < end; ++i) {
       const float p = in[i], q = in[n + i], s = in[2 * n + i];
       out[i] = b[i] * p + b[n + i] * q + b[2 * n + i] * s;

@@ -71,6 +71,7 @@ struct CellModuli {
 /// of nodeSlots() values (RowLattice), and one more value for the travel of the bar.
 class SolidLevel {
  public:
+  /// A spring at a node slot: a symmetric 3 × 3 matrix.
   struct SlotSpring {
     std::size_t slot = 0;
     std::array<double, 6> k{};  ///< xx xy xz yy yz zz, N/m

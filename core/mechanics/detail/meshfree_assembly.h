@@ -22,6 +22,7 @@ struct ActiveFunctions {
 /// whose pivot falls below 1e-10 of its square is a combination of the earlier ones there and is left out without loss.
 ActiveFunctions activeFunctions(const VoxelMesh& mesh, const FrameBasis& basis, const Clamp& clamp);
 
+/// Stiffness and mass of the active functions.
 struct ReducedMatrices {
   Eigen::SparseMatrix<double> K_N_m;  ///< n × n, symmetric to the last bit, positive semi-definite, springs included
   Eigen::SparseMatrix<double> M_kg;   ///< n × n, symmetric to the last bit, positive definite

@@ -13,6 +13,7 @@ namespace glisson::phantom {
 /// Implicit shapes: a signed distance is negative inside, in mm, exact to first order near the surface.
 using Point = Eigen::Vector3d;  ///< LPS, mm
 
+/// An ellipsoid in any position.
 struct Ellipsoid {
   Point centre_lps_mm = Point::Zero();
   Point radii_mm = Point::Ones();
@@ -43,6 +44,7 @@ inline double without(double a, double b, double k_mm) {
   return smoothMax(a, -b, k_mm);
 }
 
+/// From 0 at `from` to 1 at `to`, level at both ends.
 inline double smoothStep(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);

@@ -13,6 +13,7 @@ namespace glisson::phantom {
 ///   r_parent³ = Σ r_child³, since r = rootRadius (leaves below / all leaves)^(1/3).
 class VesselTree {
  public:
+  /// A branching point or an end.
   struct Node {
     Point p_lps_mm = Point::Zero();
     int parent = -1;  ///< -1: the root
@@ -72,6 +73,7 @@ class VesselTree {
   double rootRadius_mm_;
 };
 
+/// The two trees of a synthetic liver.
 struct LiverVessels {
   VesselTree portal;
   VesselTree hepatic;

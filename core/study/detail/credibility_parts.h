@@ -8,6 +8,7 @@
 
 namespace glisson::study {
 
+/// Lines of the page.
 using Lines = std::vector<Evidence>;
 
 /// The parts of the page; each computes what it says. Throw what their computations throw.

@@ -30,11 +30,13 @@ struct Outcome {
   }
 };
 
+/// A case of the sweep, and what should come of it.
 struct ExtremeScene {
   std::string name, expectation;
   std::function<Outcome(const Progress&)> run;
 };
 
+/// Cases of one kind.
 using Scenes = std::vector<ExtremeScene>;
 Scenes motionScenes(const StabilityOptions& options);      ///< rigid motions, oscillator, steps, limits of dynamics
 Scenes bendingScenes(const StabilityOptions& options);     ///< beams, own weight, conjugate gradients stopped at 200
