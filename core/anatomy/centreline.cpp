@@ -20,29 +20,36 @@ struct Graph {
   std::vector<std::vector<int>> next;
 };
 
+/// Numbers voxels of a grid, over and over without clearing all of it.
+class VoxelNumbers {
+ public:
+  explicit VoxelNumbers(const image::Grid& grid) : number_(grid, -1) {}
+
+  Graph graphOf(const std::vector<Eigen::Vector3i>& voxels) {
+    Graph g{voxels, std::vector<std::vector<int>>(voxels.size())};
+    for (std::size_t v = 0; v < voxels.size(); ++v) number_.at(voxels[v]) = static_cast<std::int32_t>(v);
+    for (std::size_t v = 0; v < voxels.size(); ++v)
+      for (int n = 0; n < 27; ++n) {
+        const Eigen::Vector3i p = voxels[v] + Eigen::Vector3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+        if (n != 13 && number_.grid.contains(p) && number_.at(p) >= 0) g.next[v].push_back(number_.at(p));
+      }
+    for (const Eigen::Vector3i& p : voxels) number_.at(p) = -1;
+    return g;
+  }
+
+ private:
+  image::LabelMap number_;  ///< −1 between two graphs
+};
+
 Graph graphOf(const image::Mask& line) {
-  Graph g;
-  image::LabelMap index(line.grid, -1);
-  for (int k = 0; k < line.grid.size.z(); ++k)
-    for (int j = 0; j < line.grid.size.y(); ++j)
-      for (int i = 0; i < line.grid.size.x(); ++i)
-        if (line.at(i, j, k) != 0) {
-          index.at(i, j, k) = static_cast<std::int32_t>(g.voxels.size());
-          g.voxels.emplace_back(i, j, k);
-        }
-  g.next.resize(g.voxels.size());
-  for (std::size_t v = 0; v < g.voxels.size(); ++v)
-    for (int n = 0; n < 27; ++n) {
-      const Eigen::Vector3i p = g.voxels[v] + Eigen::Vector3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
-      if (n != 13 && line.grid.contains(p) && index.at(p) >= 0) g.next[v].push_back(index.at(p));
-    }
-  return g;
+  return VoxelNumbers(line.grid).graphOf(voxelsOf(line));
 }
 
 /// Cuts the shortest side branch that ends inside the tube it leaves; true where one was cut. One at a time, so that of
 /// the two prongs at a blunt end the longer one stays as the end.
-bool prune(image::Mask& line, const image::ScalarVolume& depth_mm) {
-  const Graph g = graphOf(line);
+bool prune(image::Mask& line, std::vector<Eigen::Vector3i>& voxels, VoxelNumbers& numbers,
+           const image::ScalarVolume& depth_mm) {
+  const Graph g = numbers.graphOf(voxels);
   std::vector<int> shortest;
   double shortest_mm = 1e300;
   for (std::size_t end = 0; end < g.voxels.size(); ++end) {
@@ -65,9 +72,11 @@ bool prune(image::Mask& line, const image::ScalarVolume& depth_mm) {
     shortest_mm = reach_mm;
     shortest = std::move(branch);
   }
+  if (shortest.empty()) return false;
   for (const int v : shortest) line.at(g.voxels[static_cast<std::size_t>(v)]) = 0;
-  if (!shortest.empty()) line = skeleton(line);  // the root may have become a corner that thinning takes away
-  return !shortest.empty();
+  std::erase_if(voxels, [&](const Eigen::Vector3i& p) { return line.at(p) == 0; });
+  thin(line, voxels);  // the root may have become a corner that thinning takes away
+  return true;
 }
 
 /// Ends run into a corner of a blunt tip: voxels there that are less than 0.6 times as deep as the tube within two
@@ -192,8 +201,11 @@ Centreline centrelineOf(const image::Mask& original) {
   const bool even = original.grid.spacing_mm.maxCoeff() <= 1.25 * original.grid.spacing_mm.minCoeff();
   const image::Mask mask = even ? original : isotropic(original);
   const image::ScalarVolume depth_mm = image::distanceToBoundary_mm(mask);
-  image::Mask line = skeleton(mask);
-  while (prune(line, depth_mm)) {
+  image::Mask line = mask;
+  std::vector<Eigen::Vector3i> voxels = voxelsOf(mask);
+  thin(line, voxels);
+  VoxelNumbers numbers(line.grid);
+  while (prune(line, voxels, numbers, depth_mm)) {
   }
   trimEnds(line, depth_mm);
   const Graph g = graphOf(line);

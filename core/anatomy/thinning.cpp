@@ -2,27 +2,34 @@
 #include "anatomy/detail/thinning.h"
 
 #include <array>
-#include <vector>
+#include <bit>
+#include <cstdint>
+#include <cstdlib>
 
 namespace glisson::anatomy {
 namespace {
 
-using Cube =
-    std::array<bool, 27>;  // 3 × 3 × 3 neighbourhood, index (dx + 1) + 3 (dy + 1) + 9 (dz + 1); 13 is the centre
+/// Voxels of a 3 × 3 × 3 neighbourhood, one bit each: (dx + 1) + 3 (dy + 1) + 9 (dz + 1).
+using Cube = std::uint32_t;
+constexpr int centre = 13;
+
+constexpr Cube bit(int n) {
+  return Cube{1} << n;
+}
 
 struct Neighbours {
-  std::array<std::vector<int>, 27> touching26, touching6;
-  std::array<bool, 27> inN18{}, inN6{};
+  std::array<Cube, 27> touching26{}, touching6{};
+  Cube inN18 = 0, inN6 = 0;
   Neighbours() {
     for (int a = 0; a < 27; ++a) {
       const int off = std::abs(a % 3 - 1) + std::abs(a / 3 % 3 - 1) + std::abs(a / 9 - 1);
-      inN18[static_cast<std::size_t>(a)] = off == 1 || off == 2;
-      inN6[static_cast<std::size_t>(a)] = off == 1;
+      if (off == 1 || off == 2) inN18 |= bit(a);
+      if (off == 1) inN6 |= bit(a);
       for (int b = 0; b < 27; ++b) {
         const int dx = std::abs(a % 3 - b % 3), dy = std::abs(a / 3 % 3 - b / 3 % 3), dz = std::abs(a / 9 - b / 9);
         if (a == b || dx > 1 || dy > 1 || dz > 1) continue;
-        touching26[static_cast<std::size_t>(a)].push_back(b);
-        if (dx + dy + dz == 1) touching6[static_cast<std::size_t>(a)].push_back(b);
+        touching26[static_cast<std::size_t>(a)] |= bit(b);
+        if (dx + dy + dz == 1) touching6[static_cast<std::size_t>(a)] |= bit(b);
       }
     }
   }
@@ -33,68 +40,77 @@ const Neighbours& neighbours() {
   return table;
 }
 
-/// Marks everything reachable from start among the allowed members.
-void flood(std::size_t start, const Cube& allowed, const std::array<std::vector<int>, 27>& touching, Cube& seen) {
-  std::array<std::size_t, 27> stack{};
-  std::size_t top = 0;
-  stack[top++] = start;
-  seen[start] = true;
-  while (top > 0) {
-    const std::size_t at = stack[--top];
-    for (const int next : touching[at]) {
-      const auto n = static_cast<std::size_t>(next);
-      if (!allowed[n] || seen[n]) continue;
-      seen[n] = true;
-      stack[top++] = n;
-    }
+/// Everything that is reached from the first of the seeds among the allowed ones.
+Cube flood(Cube seeds, Cube allowed, const std::array<Cube, 27>& touching) {
+  Cube reached = seeds & (~seeds + 1), front = reached;
+  while (front != 0) {
+    const auto at = static_cast<std::size_t>(std::countr_zero(front));
+    const Cube next = touching[at] & allowed & ~reached;
+    reached |= next;
+    front = (front & (front - 1)) | next;
   }
+  return reached;
 }
 
 /// Simple: one 26-part of the foreground round the centre, and one 6-part of the background within the 18-neighbourhood
 /// that touches the centre.
-bool isSimple(const Cube& cube) {
+bool isSimple(Cube cube) {
   const Neighbours& table = neighbours();
-  Cube foreground = cube, background{}, seen{};
-  foreground[13] = false;
-  int parts = 0;
-  for (std::size_t i = 0; i < 27; ++i) {
-    background[i] = !cube[i] && table.inN18[i];
-    if (!foreground[i] || seen[i]) continue;
-    if (++parts > 1) return false;
-    flood(i, foreground, table.touching26, seen);
-  }
-  if (parts != 1) return false;
-  seen = Cube{};
-  int holes = 0;
-  for (std::size_t i = 0; i < 27; ++i) {
-    if (!background[i] || !table.inN6[i] || seen[i]) continue;
-    if (++holes > 1) return false;
-    flood(i, background, table.touching6, seen);
-  }
-  return holes == 1;
+  const Cube foreground = cube & ~bit(centre), background = ~cube & table.inN18, holes = background & table.inN6;
+  if (foreground == 0 || flood(foreground, foreground, table.touching26) != foreground) return false;
+  return holes != 0 && (holes & ~flood(holes, background, table.touching6)) == 0;
 }
+
+/// A mask that voxels are taken from.
+class Thinning {
+ public:
+  explicit Thinning(image::Mask& mask) : mask_(mask), grid_(mask.grid) {
+    for (int n = 0; n < 27; ++n) {
+      const Eigen::Vector3i d = step(n);
+      jumps_[static_cast<std::size_t>(n)] =
+          d.x() + std::ptrdiff_t{grid_.size.x()} * (d.y() + std::ptrdiff_t{grid_.size.y()} * d.z());
+    }
+  }
+
+  bool inside(const Eigen::Vector3i& p) const { return grid_.contains(p) && mask_.at(p) != 0; }
+  bool removable(const Eigen::Vector3i& p) const {
+    const Cube cube = around(p);
+    return std::popcount(cube & ~bit(centre)) > 1 && isSimple(cube);
+  }
+  void remove(const Eigen::Vector3i& p) { mask_.at(p) = 0; }
+
+ private:
+  static Eigen::Vector3i step(int n) { return {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1}; }
+
+  Cube around(const Eigen::Vector3i& p) const {
+    const bool all = (p.array() > 0).all() && (p.array() + 1 < grid_.size.array()).all();
+    const std::uint8_t* at = mask_.values.data() + grid_.linear(p);
+    Cube cube = 0;
+    for (int n = 0; n < 27; ++n)
+      if (all ? at[jumps_[static_cast<std::size_t>(n)]] != 0 : inside(p + step(n))) cube |= bit(n);
+    return cube;
+  }
+
+  image::Mask& mask_;
+  const image::Grid& grid_;
+  std::array<std::ptrdiff_t, 27> jumps_{};
+};
 
 }  // namespace
 
-image::Mask skeleton(const image::Mask& mask) {
-  image::Mask result = mask;
-  const image::Grid& grid = mask.grid;
+std::vector<Eigen::Vector3i> voxelsOf(const image::Mask& mask) {
   std::vector<Eigen::Vector3i> voxels;
+  const image::Grid& grid = mask.grid;
+  std::size_t n = 0;
   for (int k = 0; k < grid.size.z(); ++k)
     for (int j = 0; j < grid.size.y(); ++j)
-      for (int i = 0; i < grid.size.x(); ++i)
-        if (mask.at(i, j, k) != 0) voxels.emplace_back(i, j, k);
+      for (int i = 0; i < grid.size.x(); ++i, ++n)
+        if (mask.values[n] != 0) voxels.emplace_back(i, j, k);
+  return voxels;
+}
 
-  auto inside = [&](const Eigen::Vector3i& p) { return grid.contains(p) && result.at(p) != 0; };
-  auto removable = [&](const Eigen::Vector3i& p) {
-    Cube cube{};
-    int count = 0;
-    for (int n = 0; n < 27; ++n) {
-      cube[static_cast<std::size_t>(n)] = inside(p + Eigen::Vector3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
-      if (n != 13 && cube[static_cast<std::size_t>(n)]) ++count;
-    }
-    return count > 1 && isSimple(cube);
-  };
+void thin(image::Mask& mask, std::vector<Eigen::Vector3i>& voxels) {
+  Thinning thinning(mask);
   const std::array<Eigen::Vector3i, 6> sides = {Eigen::Vector3i(0, 0, 1), Eigen::Vector3i(0, 0, -1),
                                                 Eigen::Vector3i(0, 1, 0), Eigen::Vector3i(0, -1, 0),
                                                 Eigen::Vector3i(1, 0, 0), Eigen::Vector3i(-1, 0, 0)};
@@ -105,15 +121,21 @@ image::Mask skeleton(const image::Mask& mask) {
     for (const Eigen::Vector3i& side : sides) {
       border.clear();
       for (const Eigen::Vector3i& p : voxels)
-        if (!inside(p + side) && removable(p)) border.push_back(p);
+        if (!thinning.inside(p + side) && thinning.removable(p)) border.push_back(p);
       for (const Eigen::Vector3i& p : border) {
-        if (!removable(p)) continue;  // a neighbour went first
-        result.at(p) = 0;
+        if (!thinning.removable(p)) continue;  // a neighbour went first
+        thinning.remove(p);
         changed = true;
       }
-      std::erase_if(voxels, [&](const Eigen::Vector3i& p) { return result.at(p) == 0; });
+      std::erase_if(voxels, [&](const Eigen::Vector3i& p) { return mask.at(p) == 0; });
     }
   }
+}
+
+image::Mask skeleton(const image::Mask& mask) {
+  image::Mask result = mask;
+  std::vector<Eigen::Vector3i> voxels = voxelsOf(mask);
+  thin(result, voxels);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "render/colour_map.h"
 #include "render/maps.h"
+#include "render/overlays3d.h"
 
 namespace glisson::pipeline {
 
@@ -183,10 +184,11 @@ std::vector<std::filesystem::path> draw3D(const PictureData& data, const Picture
   o.palette = options.palette;
   o.width = options.width;
   o.height = options.height;
-  const auto draw = [&](const std::string& name) {
-    const render::Picture picture = render::overlay3D(data.scene, o);
-    files.push_back(folder / (name + ".png"));
-    render::writePng(files.back(), picture, options.dpi);
+  std::vector<std::string> names;
+  std::vector<render::SceneOptions3D> pictures;
+  const auto plan = [&](const std::string& name) {
+    names.push_back(name);
+    pictures.push_back(o);
   };
   const bool usual = options.cameras.empty();
   const std::vector<NamedCamera> usualCameras = {{"oblique", render::View3D::Oblique, {}},
@@ -194,20 +196,24 @@ std::vector<std::filesystem::path> draw3D(const PictureData& data, const Picture
   for (const NamedCamera& camera : usual ? usualCameras : options.cameras) {
     o.view = camera.view;
     o.camera = camera.camera;
-    draw("overlay-3d-" + camera.name);
+    plan("overlay-3d-" + camera.name);
   }
-  if (!data.scene.bar) return files;
   const std::vector<NamedCamera> behind = {{"", render::View3D::Posterior, render::barCamera}};
   for (const NamedCamera& camera : usual ? behind : options.cameras) {
+    if (!data.scene.bar) break;
     o.view = camera.view;
     o.camera = camera.camera;
     const std::string name = camera.name.empty() ? std::string() : "-" + camera.name;
     o.shown = render::Shown3D::PressureMre;
-    draw((data.scene.compared ? "contact-pressure-mre" : "contact-pressure") + name);
+    plan((data.scene.compared ? "contact-pressure-mre" : "contact-pressure") + name);
     if (!data.scene.bar->atlas) continue;
     o.shown = render::Shown3D::PressureAtlas;
-    draw("contact-pressure-atlas" + name);
+    plan("contact-pressure-atlas" + name);
   }
+  render::overlays3D(data.scene, pictures, [&](std::size_t n, const render::Picture& picture) {
+    files.push_back(folder / (names[n] + ".png"));
+    render::writePng(files.back(), picture, options.dpi);
+  });
   return files;
 }
 

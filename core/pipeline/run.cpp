@@ -69,11 +69,17 @@ RunResult run(const Scene& scene, const RunOptions& options, const Progress& pro
   state.log.noteReading(given ? std::vector<std::pair<std::string, double>>{} : inputs.seconds);
   for (const detail::Step& step : detail::stepTable()) {
     if (step.writes && options.output.empty()) continue;
+    // What is written is made of what the steps before have left: the images themselves, which are large, may go.
+    if (step.writes && loaded) {
+      loaded->mri.reset();
+      loaded->liver.reset();
+    }
     if (step.before) step.before(state);
     state.log.run(step, state);
     if (step.after) step.after(state);
   }
   writeRecord(state);
+  if (state.pictures) r.picture = std::move(state.pictures->scene);
   progress.report(1.0, "done");
   return r;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 // The steps of a run that write into its folder.
+#include <malloc.h>
+
 #include "base/error.h"
 #include "exchange/sofa.h"
 #include "pipeline/detail/record.h"
@@ -22,10 +24,12 @@ void writeDisplacements(RunState& s, const Progress&) {
 }
 
 void writeTables(RunState& s) {
-  const RunResult& r = s.result;
+  RunResult& r = s.result;
   if (s.scene.outputs.vessels && s.needs.vessels) s.writer->vessels(s.scene, r, s.vessels);
   if (r.stiffness) s.writer->stiffness(*r.stiffness);
-  if (s.needs.pictures) s.pictures = s.writer->pictureData(r);
+  if (!s.needs.pictures) return;
+  s.pictures = s.writer->pictureData(r);
+  r.picture.reset();  // one copy of the image is enough; given back at the end of the run
 }
 
 void writePictureData(RunState& s, const Progress&) {
@@ -38,6 +42,7 @@ void writeSlices(RunState& s, const Progress&) {
 }
 
 void writeOverlays3D(RunState& s, const Progress&) {
+  malloc_trim(0);  // the heap keeps what the solves gave back, and drawing needs as much once more beside it
   try {
     s.writer->overlays3D(*s.pictures, s.options.palette);
   } catch (const RenderUnavailable& e) {

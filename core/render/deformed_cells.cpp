@@ -26,17 +26,19 @@ Eigen::Vector3i cornerOffset(int bits) {
 DeformedCells::DeformedCells(const image::DisplacementField& u_mm, const image::ScalarVolume& mask)
     : u_(u_mm), mask_(mask), toIndex_(u_mm.grid), toMask_(mask.grid) {
   const image::Grid& grid = u_.grid;
+  std::vector<std::uint8_t> reached(grid.voxelCount());
+  std::size_t n = 0;
+  for (int k = 0; k < grid.size.z(); ++k)
+    for (int j = 0; j < grid.size.y(); ++j)
+      for (int i = 0; i < grid.size.x(); ++i, ++n)
+        reached[n] = inside(grid.indexToLps(Eigen::Vector3d(i, j, k))) > 0.0F ? 1 : 0;
   for (int k = 0; k + 1 < grid.size.z(); ++k)
     for (int j = 0; j + 1 < grid.size.y(); ++j)
       for (int i = 0; i + 1 < grid.size.x(); ++i) {
-        bool reached = false;
-        for (int c = 0; c < 9 && !reached; ++c) {
-          const Eigen::Vector3d at = c < 8
-                                         ? Eigen::Vector3d((Eigen::Vector3i(i, j, k) + cornerOffset(c)).cast<double>())
-                                         : Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5);
-          reached = inside(grid.indexToLps(at)) > 0.0F;
-        }
-        if (reached) cells_.push_back(static_cast<std::uint32_t>(grid.linear(i, j, k)));
+        bool any = false;
+        for (int c = 0; c < 8 && !any; ++c) any = reached[grid.linear(Eigen::Vector3i(i, j, k) + cornerOffset(c))] != 0;
+        if (any || inside(grid.indexToLps(Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5))) > 0.0F)
+          cells_.push_back(static_cast<std::uint32_t>(grid.linear(i, j, k)));
       }
   sort();
 }

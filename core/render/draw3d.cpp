@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/version.h"
 #include "render/detail/draw3d.h"
+#include "render/detail/scene_fields.h"
 #include "render/offscreen_window.h"
 #include "render/overlay.h"
 
@@ -17,13 +18,22 @@ namespace {
 
 constexpr int samples = 4;  ///< of a pixel; twice the picture both ways would look the same, and take 300 MB more
 
-Picture drawn(const Draw3dJob& job) {
-  OffscreenWindow window(job.options->width, job.options->height, job.backend);
-  window.setSize(job.options->width, job.options->height, samples);
-  vtkNew<vtkRenderer> renderer;
-  window.window()->AddRenderer(renderer);
-  populate3D(renderer, *job.scene, *job.options);
-  return window.capture();
+/// One window for all pictures: its context, and the shaders compiled in it, are most of what a picture costs.
+void draw(const Draw3dJob& job) {
+  if (job.options->empty()) return;
+  const SceneOptions3D& first = job.options->front();
+  OffscreenWindow window(first.width, first.height, job.backend);
+  SceneFields fields(*job.scene);
+  for (std::size_t n = 0; n < job.options->size(); ++n) {
+    const SceneOptions3D& options = (*job.options)[n];
+    window.setSize(options.width, options.height, samples);
+    vtkNew<vtkRenderer> renderer;
+    window.window()->AddRenderer(renderer);
+    populate3D(renderer, *job.scene, options, fields);
+    Picture picture = window.capture();
+    window.window()->RemoveRenderer(renderer);
+    if (!job.take(n, std::move(picture))) return;
+  }
 }
 
 }  // namespace
@@ -34,7 +44,7 @@ extern "C" __attribute__((visibility("default"))) Draw3dOutcome glissonDraw3d(co
   if (build != version() + " " + buildCommit()) return Draw3dOutcome::OtherBuild;
   try {
     setThreadCount(job.threads);
-    job.picture = drawn(job);
+    draw(job);
     return Draw3dOutcome::Drawn;
   } catch (const RenderUnavailable& e) {
     job.error = e.what();

@@ -4,12 +4,13 @@
 #include <dlfcn.h>
 
 #include <atomic>
+#include <exception>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/version.h"
 #include "render/detail/draw3d.h"
-#include "render/overlay.h"
+#include "render/overlays3d.h"
 
 namespace glisson::render {
 namespace {
@@ -47,15 +48,28 @@ std::mutex& textDrawing() {
   return oneAtATime;
 }
 
-Picture overlay3D(const RetractionScene& scene, const SceneOptions3D& options) {
-  if (options.width < 64 || options.height < 64 || options.width > 8000 || options.height > 8000)
-    throw BadArgument("a 3-D picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) +
-                      " pixels is outside 64..8000");
+void overlays3D(const RetractionScene& scene, const std::vector<SceneOptions3D>& options,
+                const std::function<void(std::size_t, const Picture&)>& take) {
+  for (const SceneOptions3D& o : options)
+    if (o.width < 64 || o.height < 64 || o.width > 8000 || o.height > 8000)
+      throw BadArgument("a 3-D picture of " + std::to_string(o.width) + " x " + std::to_string(o.height) +
+                        " pixels is outside 64..8000");
   const std::scoped_lock lock(textDrawing());
+  std::exception_ptr notTaken;
   Draw3dJob job{&scene, &options, renderBackend(), threadCount(), {}, {}};
+  job.take = [&](std::size_t n, Picture&& picture) {
+    try {
+      take(n, picture);
+    } catch (...) {
+      notTaken = std::current_exception();
+    }
+    return notTaken == nullptr;
+  };
   const std::string build = version() + " " + buildCommit();
-  switch (draw3d()(build.c_str(), job)) {
-    case Draw3dOutcome::Drawn: return std::move(job.picture);
+  const Draw3dOutcome outcome = draw3d()(build.c_str(), job);
+  if (notTaken) std::rethrow_exception(notTaken);
+  switch (outcome) {
+    case Draw3dOutcome::Drawn: return;
     case Draw3dOutcome::Unavailable: throw RenderUnavailable(job.error);
     case Draw3dOutcome::BadInputFound: throw BadInput(job.error);
     case Draw3dOutcome::BadArgumentFound: throw BadArgument(job.error);
@@ -64,6 +78,12 @@ Picture overlay3D(const RetractionScene& scene, const SceneOptions3D& options) {
     case Draw3dOutcome::Failed: break;
   }
   throw Error(job.error);
+}
+
+Picture overlay3D(const RetractionScene& scene, const SceneOptions3D& options) {
+  Picture drawn;
+  overlays3D(scene, {options}, [&](std::size_t, const Picture& picture) { drawn = picture; });
+  return drawn;
 }
 
 }  // namespace glisson::render

@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "render/arrows.h"
 #include "render/colour_map.h"
+#include "render/detail/scene_fields.h"
 #include "render/detail/stage.h"
-#include "render/sampling.h"
 
 namespace glisson::render {
 namespace {
@@ -55,8 +55,12 @@ anatomy::TriangleMesh barAfter(const RetractionScene& scene, const BarContact& c
 /// One picture in the making: what every kind of it needs.
 class Picture3D {
  public:
-  Picture3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options)
-      : scene_(scene), options_(options), colour_(coloursOf(options.palette)), stage_(renderer, options) {}
+  Picture3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options, SceneFields& fields)
+      : scene_(scene),
+        options_(options),
+        fields_(fields),
+        colour_(coloursOf(options.palette)),
+        stage_(renderer, options) {}
 
   void draw() {
     if (options_.shown == Shown3D::Answers)
@@ -77,17 +81,14 @@ class Picture3D {
 
   const RetractionScene& scene_;
   const SceneOptions3D& options_;
+  SceneFields& fields_;
   SceneColours colour_;
   Stage stage_;
   Eigen::AlignedBox3d box_;
 };
 
 void Picture3D::answers() {
-  const image::ScalarVolume liver = asScalar(scene_.liver);
-  const double reach_mm = 3.0 * liver.grid.spacing_mm.maxCoeff() + scene_.retractorDiameter_mm;
-  const image::DisplacementField mreField = extended(scene_.u_mre_mm, liver, reach_mm);
-  const image::DisplacementField atlasField = extended(scene_.u_atlas_mm, liver, reach_mm);
-  const InverseMap mre(mreField, true), atlas(atlasField, true);
+  const InverseMap &mre = fields_.mre(), &atlas = fields_.atlas();
   const auto moving = [](const InverseMap& map, double t) -> Motion {
     return [&map, t](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p + t * map.at(p); };
   };
@@ -234,6 +235,12 @@ void Picture3D::finish(std::vector<LegendRow> legend) {
 }  // namespace
 
 void populate3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options) {
+  SceneFields fields(scene);
+  populate3D(renderer, scene, options, fields);
+}
+
+void populate3D(vtkRenderer* renderer, const RetractionScene& scene, const SceneOptions3D& options,
+                SceneFields& fields) {
   if (!renderer) throw BadArgument("populate3D needs a renderer");
   if (!(options.t >= 0.0 && options.t <= 1.0)) throw BadArgument("the fraction of the displacement must lie in [0, 1]");
   renderer->RemoveAllViewProps();
@@ -244,7 +251,7 @@ void populate3D(vtkRenderer* renderer, const RetractionScene& scene, const Scene
   vtkNew<vtkLightKit> lights;
   lights->SetKeyLightIntensity(0.85);
   lights->AddLightsToRenderer(renderer);
-  Picture3D(renderer, scene, options).draw();
+  Picture3D(renderer, scene, options, fields).draw();
   renderer->ResetCameraClippingRange();
 }
 

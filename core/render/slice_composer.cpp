@@ -17,13 +17,36 @@ namespace {
 
 constexpr float dimmed = 0.45F;  // tissue outside the liver, not simulated
 
+/// The voxels of a grid, from the first to the last along each axis, that the tri-linear mask may reach; empty (last
+/// before first) where there are none.
+std::pair<Eigen::Vector3i, Eigen::Vector3i> reachOf(const image::ScalarVolume& mask, const image::Grid& grid) {
+  Eigen::AlignedBox3d box;
+  std::size_t n = 0;
+  for (int k = 0; k < mask.grid.size.z(); ++k)
+    for (int j = 0; j < mask.grid.size.y(); ++j)
+      for (int i = 0; i < mask.grid.size.x(); ++i, ++n)
+        if (mask.values[n] > 0.0F) box.extend(Eigen::Vector3d(i, j, k));
+  if (box.isEmpty()) return {Eigen::Vector3i::Zero(), Eigen::Vector3i::Constant(-1)};
+  const Eigen::AlignedBox3d wide(box.min().array() - 1.0, box.max().array() + 1.0);
+  Eigen::AlignedBox3d reach;
+  for (int c = 0; c < 8; ++c)
+    reach.extend(grid.lpsToIndex(mask.grid.indexToLps(wide.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c)))));
+  const Eigen::Vector3d last = (grid.size - Eigen::Vector3i::Ones()).cast<double>();
+  const auto within = [&](const Eigen::Vector3d& index) {
+    return Eigen::Vector3d(index.cwiseMax(-1.0).cwiseMin(last + Eigen::Vector3d::Ones()));
+  };
+  return {within(reach.min()).array().floor().cast<int>().max(0),
+          within(reach.max()).array().ceil().cast<int>().min(grid.size.array() - 1)};
+}
+
 Window windowOf(const image::ScalarVolume& mri, const image::ScalarVolume& liver) {
   const LpsToIndex toLiver(liver.grid);
   const image::Grid& grid = mri.grid;
+  const auto [first, last] = reachOf(liver, grid);
   std::vector<float> inside;
-  for (int k = 0; k < grid.size.z(); ++k)
-    for (int j = 0; j < grid.size.y(); ++j)
-      for (int i = 0; i < grid.size.x(); ++i)
+  for (int k = first.z(); k <= last.z(); ++k)
+    for (int j = first.y(); j <= last.y(); ++j)
+      for (int i = first.x(); i <= last.x(); ++i)
         if (sampleLinear(liver, toLiver(grid.indexToLps(Eigen::Vector3i(i, j, k).cast<double>()))) >= 0.5F &&
             std::isfinite(mri.at(i, j, k)))
           inside.push_back(mri.at(i, j, k));
@@ -213,12 +236,17 @@ std::vector<float> SliceComposer::channel(const SlicePlane& plane, const MovedSt
       for (std::size_t column = 0; column < width; ++column) {
         const std::size_t n = row * width + column;
         const Eigen::Vector3d y = plane.toLps(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
-        const InverseMap::Result rest = state.inverse.rest(y);
-        phi[n] = rest.found ? sampleLinear(liver_, toLiver(rest.x_lps)) - 0.5F : -0.5F;
-        if (cut && cut->closed[row]) unknown[n] = cut->inside[n] && !rest.found;
-        if (cut && cut->closed[row] ? cut->inside[n] != 0 : phi[n] >= 0.0F)
-          out[n] = window_(sampleLinear(scene_.mri, toMri(rest.x_lps)));
-        else if (sampleLinear(liver_, toLiver(y)) < 0.5F)
+        const bool known = cut && cut->closed[row];
+        bool liver = known && cut->inside[n] != 0;
+        // Where the surface says that there is no liver, nobody asks what rests where.
+        if (liver || !known) {
+          const InverseMap::Result rest = state.inverse.rest(y);
+          phi[n] = rest.found ? sampleLinear(liver_, toLiver(rest.x_lps)) - 0.5F : -0.5F;
+          unknown[n] = liver && !rest.found;
+          if (!known) liver = phi[n] >= 0.0F;
+          if (liver) out[n] = window_(sampleLinear(scene_.mri, toMri(rest.x_lps)));
+        }
+        if (!liver && sampleLinear(liver_, toLiver(y)) < 0.5F)
           out[n] = dimmed * window_(sampleLinear(scene_.mri, toMri(y)));
       }
   });

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "render/overlay.h"
 
@@ -12,14 +14,15 @@ inline constexpr const char* draw3dFile = "glisson_render3d.so";
 /// Name of its one entry, of type Draw3d.
 inline constexpr const char* draw3dEntry = "glissonDraw3d";
 
-/// One 3-D picture to be drawn. Program and part are built together and hand each other C++ types, so `build` (version
-/// and commit) is compared first.
+/// 3-D pictures of one scene to be drawn. Program and part are built together and hand each other C++ types, so `build`
+/// (version and commit) is compared first.
 struct Draw3dJob {
   const RetractionScene* scene = nullptr;
-  const SceneOptions3D* options = nullptr;
+  const std::vector<SceneOptions3D>* options = nullptr;
   RenderBackend backend = RenderBackend::Auto;
   int threads = 0;
-  Picture picture;    ///< out
+  /// Takes each picture in turn; false ends the job. Throws nothing.
+  std::function<bool(std::size_t, Picture&&)> take;
   std::string error;  ///< out: what went wrong, in words
 };
 

@@ -85,6 +85,20 @@ TEST(Skeleton, KeepsTopologyAndIsThin) {
   EXPECT_LE(image::count(skeleton(ball)), 12u);  // no longer than its radius
 }
 
+TEST(Skeleton, InPlaceKnowsWhatIsLeft) {
+  image::Grid g;
+  g.size = {30, 24, 20};
+  // It touches the border, where neighbours are missing.
+  image::Mask mask = maskOf(g, [](const Eigen::Vector3d& p) { return p.y() < 8.0 || (p.x() < 6.0 && p.z() < 9.0); });
+  const image::Mask expected = skeleton(mask);
+  std::vector<Eigen::Vector3i> voxels = voxelsOf(mask);
+  EXPECT_EQ(voxels.size(), image::count(mask));
+  thin(mask, voxels);
+  EXPECT_EQ(mask.values, expected.values);
+  EXPECT_TRUE(voxels == voxelsOf(expected));
+  EXPECT_LT(voxels.size(), 200u);
+}
+
 TEST(Centreline, TubeHasItsRadiusOnObliqueLattices) {
   for (const double radius : {3.0, 5.0})
     for (const Lattice& l : lattices(centre, 40, {1.2, 1.2, 1.2})) {

@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "image/components.h"
 #include "image/distance.h"
+#include "image/extend.h"
 #include "image/morphology.h"
 #include "image/resample.h"
 #include "support/support.h"
@@ -44,6 +45,53 @@ TEST(Resample, LinearFieldIsExactAndTheBorderHolds) {
   v.at(5, 5, 5) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_TRUE(std::isnan(sampleLinear(v, g.indexToLps({5.5, 5, 5}), -1.0F)));
   EXPECT_FALSE(std::isnan(sampleLinear(v, g.indexToLps({6, 5, 5}), -1.0F)));  // weight 0 does not spread it
+}
+
+/// Red-black over-relaxation as text books have it, on the field as it lies; odd voxels come first.
+void sweepPlainly(const Mask& known, double omega, DisplacementField& u) {
+  const Grid& g = u.grid;
+  const Eigen::Vector3d w =
+      g.spacing_mm.cwiseAbs2().cwiseInverse() / (2 * g.spacing_mm.cwiseAbs2().cwiseInverse().sum());
+  for (const int parity : {1, 0})
+    for (int k = 1; k + 1 < g.size.z(); ++k)
+      for (int j = 1; j + 1 < g.size.y(); ++j)
+        for (int i = 1; i + 1 < g.size.x(); ++i) {
+          if ((i + j + k) % 2 != parity || known.at(i, j, k)) continue;
+          const Eigen::Vector3f mean = static_cast<float>(w.x()) * (u.at(i - 1, j, k) + u.at(i + 1, j, k)) +
+                                       static_cast<float>(w.y()) * (u.at(i, j - 1, k) + u.at(i, j + 1, k)) +
+                                       static_cast<float>(w.z()) * (u.at(i, j, k - 1) + u.at(i, j, k + 1));
+          u.at(i, j, k) += static_cast<float>(omega) * (mean - u.at(i, j, k));
+        }
+}
+
+TEST(Extend, IsPlainOverRelaxationOnAnyGrid) {
+  for (const Eigen::Vector3i& size : {Eigen::Vector3i(5, 4, 3), Eigen::Vector3i(4, 3, 6), Eigen::Vector3i(1, 2, 1)})
+    for (const double margin_mm : {0.0, 2.5, 6.0}) {
+      const Grid g = oblique(size, {1.3, 2.1, 3});
+      DisplacementField u(g, Eigen::Vector3f::Zero());
+      Mask inside(g);
+      Random random(3);
+      for (std::size_t n = 0; n < u.values.size(); ++n) {
+        inside.values[n] = random.uniform() < 0.7;
+        for (int c = 0; c < 3; ++c) u.values[n][c] = static_cast<float>(random.normal());
+      }
+      const DisplacementField wide = extendHarmonically(u, inside, margin_mm);
+      const Eigen::Vector3i pad = (wide.grid.size - size) / 2;
+      DisplacementField plain(wide.grid, Eigen::Vector3f::Zero());
+      Mask known(wide.grid);
+      for (int k = 0; k < size.z(); ++k)
+        for (int j = 0; j < size.y(); ++j)
+          for (int i = 0; i < size.x(); ++i) {
+            if (!inside.at(i, j, k)) continue;
+            plain.at(Eigen::Vector3i(i, j, k) + pad) = u.at(i, j, k);
+            known.at(Eigen::Vector3i(i, j, k) + pad) = 1;
+          }
+      const int longest = pad.maxCoeff();
+      const double omega = 2.0 / (1.0 + std::sin(std::acos(-1.0) / std::max(4, 2 * longest)));
+      for (int sweep = 0; sweep < std::max(20, 4 * longest); ++sweep) sweepPlainly(known, omega, plain);
+      for (std::size_t n = 0; n < plain.values.size(); ++n)
+        EXPECT_LT((wide.values[n] - plain.values[n]).norm(), 1e-5F) << n;
+    }
 }
 
 TEST(Resample, OwnGridGivesTheSameBits) {

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "base/error.h"
-#include "render/overlay.h"
+#include "render/overlays3d.h"
 #include "scene_fixture.h"
 
 namespace glisson::render {
@@ -112,6 +112,29 @@ TEST_F(Overlay3D, wholeSceneTwiceGivesTheSameBytes) {
     EXPECT_GT(find(a, isBlue).count, 100U);
     EXPECT_GT(find(a, isRed).count, 100U);
   }
+}
+
+TEST_F(Overlay3D, severalAreThoseDrawnAlone) {
+  const RetractionScene scene = test::retractionScene(1.6, 64);
+  const std::vector<SceneOptions3D> options = {{.view = View3D::Anterior, .width = 400, .height = 300},
+                                               {.view = View3D::Oblique, .width = 300, .height = 340, .arrows = true},
+                                               {.view = View3D::Anterior, .width = 400, .height = 300}};
+  std::vector<Picture> drawn;
+  overlays3D(scene, options, [&](std::size_t n, const Picture& picture) {
+    EXPECT_EQ(n, drawn.size());
+    drawn.push_back(picture);
+  });
+  ASSERT_EQ(drawn.size(), options.size());
+  for (std::size_t n = 0; n < options.size(); ++n) EXPECT_EQ(drawn[n].rgb, overlay3D(scene, options[n]).rgb) << n;
+  EXPECT_NE(drawn[0].rgb, drawn[1].rgb);
+  int taken = 0;
+  EXPECT_THROW(overlays3D(scene, options,
+                          [&](std::size_t, const Picture&) {
+                            ++taken;
+                            throw BadInput("the disk is full");
+                          }),
+               BadInput);
+  EXPECT_EQ(taken, 1);
 }
 
 TEST_F(Overlay3D, invalidIsMarked) {
