@@ -18,6 +18,7 @@ class Scale {
   void setPixels(double atLow, double atHigh);
 
   double operator()(double value) const;
+  double valueAt(double pixel) const;  ///< beyond the ends of the axis too
   struct Tick {
     double value;
     std::string text;  ///< empty for a minor tick
