@@ -284,6 +284,10 @@ CohortResult runCohort(const fs::path& folder, const CohortOptions& options, con
   return result;
 }
 
+bool isMadeOf(const std::string& key, const PatientFolder& patient) {
+  return prepare(patient, {}, false).key == key || prepare(patient, {}, true).key == key;
+}
+
 CohortResult mergeCohort(const std::vector<fs::path>& shards, const fs::path& folder, const CohortOptions& options,
                          const Progress& progress) {
   checkOptions(options);

@@ -10,6 +10,8 @@
 
 namespace glisson::cohort {
 
+struct PatientFolder;
+
 /// What a cohort's run does, and with what.
 struct CohortOptions {
   std::filesystem::path output;                ///< results; what is there already and still holds is not computed again
@@ -48,6 +50,10 @@ struct CohortResult {
 /// Where it was stopped at any point, another call goes on. Throws BadInput (no patients), Cancelled.
 CohortResult runCohort(const std::filesystem::path& patients, const CohortOptions& options,
                        const Progress& progress = {});
+
+/// Whether a result of runCohort, by its key, was made of exactly the files that this patient's folder holds, with this
+/// version and without a template scene. Reads all of them.
+bool isMadeOf(const std::string& key, const PatientFolder& patient);
 
 /// Puts the results of shards together and summarises them: the bytes that one machine would have written. patients:
 /// the same folder again, for the overlays and the sensitivity of the chosen four; empty leaves those out.

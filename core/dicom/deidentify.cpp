@@ -3,17 +3,16 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <map>
-#include <sstream>
+#include <set>
 
 #include <dcmtk/config/osconfig.h>
 #include <dcmtk/dcmdata/dctk.h>
 
 #include "base/error.h"
-#include "base/part_file.h"
 #include "base/text.h"
 #include "dicom/detail/attributes.h"
+#include "dicom/detail/clean_copy.h"
 #include "dicom/detail/deidentify_actions.h"
 #include "dicom/detail/writer.h"
 #include "dicom/write_mr.h"
@@ -29,10 +28,22 @@ struct Case {
   std::string description;  ///< for SeriesDescription, words of our own
   int structures = 0;
   bool agesCut = false;
+  AttributeChanges changes;
 };
 
 std::string mappedUid(const ProjectKey& key, const std::string& old) {
   return uidFrom("de-identified/" + keyedDigest(key, "uid/" + old));
+}
+
+/// One or several, separated by backslashes.
+std::string mappedUids(const ProjectKey& key, const std::string& old) {
+  std::string all;
+  for (std::size_t begin = 0; begin <= old.size() && !old.empty();) {
+    const std::size_t end = std::min(old.find('\\', begin), old.size());
+    all += (all.empty() ? "" : "\\") + mappedUid(key, old.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return all;
 }
 
 /// A date of the Gregorian calendar moved by days; empty where it is none.
@@ -109,21 +120,24 @@ void treat(DcmItem& item, DcmElement& element, Case& c, int depth) {
   const DcmTagKey tag(element.getGTag(), element.getETag());
   switch (actionFor(element)) {
     case Action::Keep: return;
-    case Action::Remove: item.findAndDeleteElement(tag); return;
-    case Action::Empty: Writer::check(item.insertEmptyElement(tag, OFTrue), tag); return;
-    case Action::Dummy: setText(item, tag, dummyFor(element, shownText(item, tag), c)); return;
-    case Action::Uid: {
-      const std::string old = text(item, tag);
-      std::string all;
-      for (std::size_t begin = 0; begin <= old.size() && !old.empty();) {
-        const std::size_t end = std::min(old.find('\\', begin), old.size());
-        all += (all.empty() ? "" : "\\") + mappedUid(c.key, old.substr(begin, end - begin));
-        begin = end + 1;
-      }
-      setText(item, tag, all);
+    case Action::Remove:
+      ++((tag.getGroup() & 1U) != 0 ? c.changes.privateRemoved : c.changes.removed);
+      item.findAndDeleteElement(tag);
       return;
-    }
+    case Action::Empty:
+      c.changes.emptied += element.getLength() > 0 ? 1 : 0;
+      Writer::check(item.insertEmptyElement(tag, OFTrue), tag);
+      return;
+    case Action::Dummy:
+      ++c.changes.replaced;
+      setText(item, tag, dummyFor(element, shownText(item, tag), c));
+      return;
+    case Action::Uid:
+      setText(item, tag, mappedUids(c.key, text(item, tag)));
+      ++c.changes.uids;
+      return;
     case Action::Date: {
+      c.changes.dates += element.getLength() > 0 ? 1 : 0;
       const std::string moved = c.options.shiftDates ? shiftedDate(text(item, tag), c.shift_days) : std::string();
       const bool typed = tag == DCM_ContentDate;  // Type 1 in most objects
       setText(item, tag, !moved.empty() ? moved : typed ? "19000101" : "");
@@ -137,14 +151,18 @@ void treat(DcmItem& item, DcmElement& element, Case& c, int depth) {
         }
         return;
       }
-      if (tag == DCM_PatientSex)
+      if (tag == DCM_PatientSex) {
+        c.changes.emptied += element.getLength() > 0 ? 1 : 0;
         setText(item, tag, "");
-      else
+      } else {
+        ++c.changes.removed;
         item.findAndDeleteElement(tag);
+      }
       return;
     case Action::Descend: {
       auto* sequence = dynamic_cast<DcmSequenceOfItems*>(&element);
       if (sequence == nullptr || depth > 64) {
+        ++c.changes.removed;
         item.findAndDeleteElement(tag);
         return;
       }
@@ -156,11 +174,12 @@ void treat(DcmItem& item, DcmElement& element, Case& c, int depth) {
 }
 
 /// Codes of private schemes may say anything: their meaning goes.
-void cleanCode(DcmItem& item) {
+void cleanCode(DcmItem& item, Case& c) {
   const std::string scheme = text(item, DCM_CodingSchemeDesignator);
   if (scheme.empty()) return;
   static const char* known[] = {"DCM", "SCT", "SRT", "SNM3", "UCUM", "LN", "RFC5646", "FMA", "NCIt", "99GLISSON"};
   if (std::any_of(std::begin(known), std::end(known), [&](const char* k) { return scheme == k; })) return;
+  ++c.changes.codes;
   setText(item, DCM_CodeValue, "REMOVED");
   setText(item, DCM_CodingSchemeDesignator, "99REMOVED");
   setText(item, DCM_CodeMeaning, "REMOVED");
@@ -188,7 +207,7 @@ void clean(DcmItem& item, Case& c, int depth) {
     DcmElement* element = nullptr;
     if (item.findAndGetElement(tag, element).good() && element != nullptr) treat(item, *element, c, depth);
   }
-  cleanCode(item);
+  cleanCode(item, c);
 }
 
 void declare(DcmDataset& data, const Case& c) {
@@ -237,59 +256,6 @@ std::string describe(const Series& s) {
   return words;
 }
 
-std::string shortElement(std::uint16_t element, const char* vr, std::string value) {
-  if (value.size() % 2 != 0) value += '\0';  // UIDs and raw bytes are padded with a zero
-  const auto low = [](std::size_t v) {
-    return std::string{static_cast<char>(v & 0xFF), static_cast<char>(v >> 8 & 0xFF)};
-  };
-  return low(0x0002) + low(element) + vr + low(value.size()) + value;
-}
-
-/// Preamble and file meta information; nothing of the source's but its transfer syntax.
-std::string metaInformation(const std::string& sopClass, const std::string& sopInstance, const std::string& syntax) {
-  const std::string version = std::string("\x02\x00\x01\x00OB\x00\x00\x02\x00\x00\x00\x00\x01", 14);
-  const std::string body = version + shortElement(0x0002, "UI", sopClass) + shortElement(0x0003, "UI", sopInstance) +
-                           shortElement(0x0010, "UI", syntax) +
-                           shortElement(0x0012, "UI", uidFrom("glisson/implementation"));
-  std::string length;
-  for (int n = 0; n < 4; ++n) length += static_cast<char>(body.size() >> (8 * n) & 0xFF);
-  return std::string(128, '\0') + "DICM" + shortElement(0x0000, "UL", length) + body;
-}
-
-/// Where the bytes of the pixel element end.
-std::uint64_t endOfPixels(const FileLayout& layout) {
-  if (!layout.pixels) return layout.headerEnd;
-  const PixelElement& p = *layout.pixels;
-  if (!p.encapsulated) return p.offset + p.length;
-  if (p.fragments.empty()) throw BadInput("has compressed pixels without any code stream");
-  return p.fragments.back().offset + p.fragments.back().length + 8;  // sequence delimiter
-}
-
-/// Header through DCMTK, pixels as they lie in the source, at the source's transfer syntax (inflated where deflated).
-void save(DcmDataset& data, const ByteSource& source, const FileLayout& layout, const std::filesystem::path& file) {
-  const E_TransferSyntax written = layout.bigEndian    ? EXS_BigEndianExplicit
-                                   : layout.explicitVr ? EXS_LittleEndianExplicit
-                                                       : EXS_LittleEndianImplicit;
-  const bool compressed = layout.pixels && layout.pixels->encapsulated;
-  const std::string syntax = compressed ? layout.transferSyntax : DcmXfer(written).getXferID();
-  const std::uint64_t end = endOfPixels(layout);
-  PartFile header(file), whole(file);
-  if (data.saveFile(header.path().c_str(), written, EET_ExplicitLength).bad())
-    throw Error("a de-identified file cannot be written; is the folder writable, and the disk not full?");
-  std::ifstream from(header.path(), std::ios::binary);
-  std::ostringstream start;
-  start << metaInformation(text(data, DCM_SOPClassUID), text(data, DCM_SOPInstanceUID), syntax) << from.rdbuf();
-  const std::string head = start.str();
-  whole.write(head.data(), head.size());
-  for (std::uint64_t at = layout.headerEnd; at < end;) {
-    const std::uint64_t piece = std::min<std::uint64_t>(end - at, 1U << 20);
-    const std::vector<std::uint8_t> bytes = source.bytes(at, piece);
-    whole.write(bytes.data(), bytes.size());
-    at += piece;
-  }
-  whole.become();
-}
-
 /// Throws BadInput where the folders cannot be what they are meant for.
 void checkFolders(const std::filesystem::path& in, const std::filesystem::path& out) {
   // The output must not be read again as input.
@@ -325,7 +291,7 @@ Case caseOf(DcmDataset& data, const ProjectKey& key, const DeidentifyOptions& op
   const std::string patient =
       keyedDigest(key, "patient/" + unifiedText(data, DCM_PatientID) + "/" + unifiedText(data, DCM_IssuerOfPatientID) +
                            (text(data, DCM_PatientID).empty() ? unifiedText(data, DCM_PatientName) : std::string()));
-  Case c{key, options, "G-" + patient.substr(0, 12), 0, {}, 0, false};
+  Case c{key, options, "G-" + patient.substr(0, 12), 0, {}, 0, false, {}};
   c.shift_days = -1 - static_cast<int>(std::stoul(patient.substr(12, 6), nullptr, 16) % 3650);
   const auto words = descriptions.find(text(data, DCM_SeriesInstanceUID));
   if (words != descriptions.end()) c.description = words->second;
@@ -333,6 +299,16 @@ Case caseOf(DcmDataset& data, const ProjectKey& key, const DeidentifyOptions& op
   if (c.description.empty() && text(data, DCM_Manufacturer) == "Glisson")
     c.description = "RESEARCH " + text(data, DCM_Modality);
   return c;
+}
+
+void add(const AttributeChanges& one, AttributeChanges& all) {
+  all.removed += one.removed;
+  all.privateRemoved += one.privateRemoved;
+  all.emptied += one.emptied;
+  all.replaced += one.replaced;
+  all.uids += one.uids;
+  all.dates += one.dates;
+  all.codes += one.codes;
 }
 
 /// The place of a cleaned file. Throws BadInput where there is one already.
@@ -365,6 +341,7 @@ DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesyst
   const std::vector<std::filesystem::path> files = filesIn(in);
   DeidentifyResult result;
   std::size_t agesCut = 0;
+  std::set<std::string> patients;
   std::filesystem::create_directories(out);
   for (std::size_t n = 0; n < files.size(); ++n) {
     progress.part(0.3, 1.0).report(static_cast<double>(n) / static_cast<double>(files.size()), "de-identifying");
@@ -380,14 +357,17 @@ DeidentifyResult deidentify(const std::filesystem::path& in, const std::filesyst
       declare(data, c);
       if (!study.empty()) setText(data, DCM_StudyDescription, study);
       const std::filesystem::path file = placeOf(data, c, out);
-      save(data, source, layout, file);
+      writeCleanCopy(data, source, layout, file);
       result.files.push_back(file);
       agesCut += c.agesCut ? 1 : 0;
+      add(c.changes, result.changes);
+      patients.insert(c.pseudonym);
     } catch (const BadInput& e) {
       result.leftOut.push_back({files[n], e.what()});
     }
   }
   addNotes(agesCut, result);
+  result.patients = patients.size();
   progress.report(1.0, "de-identified");
   return result;
 }

@@ -31,11 +31,24 @@ struct DeidentifyOptions {
   bool keepCharacteristics = false;  ///< retain age (90 at most), sex, size and weight
 };
 
+/// How many attributes of all files were changed, those inside sequences too.
+struct AttributeChanges {
+  std::size_t removed = 0;         ///< standard attributes, with what they held
+  std::size_t privateRemoved = 0;  ///< attributes of a maker
+  std::size_t emptied = 0;         ///< that held something
+  std::size_t replaced = 0;        ///< names, IDs and texts by a pseudonym or a word of ours
+  std::size_t uids = 0;            ///< mapped by the key
+  std::size_t dates = 0;           ///< emptied or shifted
+  std::size_t codes = 0;           ///< of schemes that are not known
+};
+
 /// What a de-identification has written and left out.
 struct DeidentifyResult {
   std::vector<std::filesystem::path> files;  ///< written, below the output folder
   std::vector<SkippedFile> leftOut;          ///< no DICOM, or pixels that may show who the patient is; with the reason
   std::vector<std::string> notes;            ///< what was done, in words
+  AttributeChanges changes;                  ///< of the files that were written
+  std::size_t patients = 0;                  ///< of these files, by pseudonym
 };
 
 /// Copies every DICOM object below `in` to `out` without what identifies the patient: the actions of the basic profile

@@ -55,7 +55,18 @@ Exported exportFiles(const ExportRequest& request, const Progress& progress) {
   }
   if (wanted.empty()) throw BadInput("no format was asked for");
   detail::ExportCase c(request, progress);
-  for (const Exporter* e : wanted) e->write(c);
+  for (const Exporter* e : wanted) {
+    const std::size_t before = c.exported().files.size();
+    try {
+      e->write(c);
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& refusal) {
+      if (!request.leaveOutRefused) throw;
+      c.exported().refused.push_back({e->name, refusal.what()});
+      c.forgetFilesFrom(before);
+    }
+  }
   progress.report(1.0, "exported");
   return c.exported();
 }

@@ -119,17 +119,21 @@ const image::Mask& ExportCase::liverOnMre() {
 
 const RunResult& ExportCase::result() {
   if (result_) return *result_;
-  Scene scene = scene_;
-  scene.outputs = {};
-  scene.outputs.displacementField = true;
-  scene.outputs.vessels = scene_.outputs.vessels;
-  result_ = run(scene, {}, progress_);
-  for (const std::string& w : result_->warnings) warn(w);
-  warn(result_->diagnostics);
-  if (!result_->primary.solver.converged())
-    throw SolverFailed("the scene's solve did not converge: nothing of it is exported",
-                       result_->primary.solver.iterations, result_->primary.solver.residual,
-                       result_->primary.solver.tolerance);
+  std::shared_ptr<const RunResult> made = request_.solved;
+  if (!made) {
+    Scene scene = scene_;
+    scene.outputs = {};
+    scene.outputs.displacementField = true;
+    scene.outputs.vessels = scene_.outputs.vessels;
+    made = std::make_shared<const RunResult>(run(scene, {}, progress_));
+  }
+  for (const std::string& w : made->warnings) warn(w);
+  warn(made->diagnostics);
+  const auto& solver = made->primary.solver;
+  if (!solver.converged())
+    throw SolverFailed("the scene's solve did not converge: nothing of it is exported", solver.iterations,
+                       solver.residual, solver.tolerance);
+  result_ = std::move(made);
   return *result_;
 }
 
@@ -144,6 +148,12 @@ void ExportCase::note(const std::vector<std::filesystem::path>& files) {
   for (const auto& f : files)
     if (std::find(exported_.files.begin(), exported_.files.end(), f) == exported_.files.end())
       exported_.files.push_back(f);
+}
+
+void ExportCase::forgetFilesFrom(std::size_t first) {
+  std::error_code ignored;
+  for (std::size_t n = first; n < exported_.files.size(); ++n) std::filesystem::remove(exported_.files[n], ignored);
+  exported_.files.resize(std::min(first, exported_.files.size()));
 }
 
 void ExportCase::warn(const Diagnostics& said) {

@@ -94,6 +94,11 @@ double Scale::operator()(double value) const {
   return from_ + (to_ - from_) * along(value);
 }
 
+double Scale::valueAt(double pixel) const {
+  const double along = (pixel - from_) / (to_ - from_);
+  return logarithmic_ ? low_ * std::pow(high_ / low_, along) : low_ + (high_ - low_) * along;
+}
+
 double chartFont(const ChartSize& size) {
   return std::clamp(std::min(size.width / 52.0, size.height / 36.0), 8.0, 80.0);
 }

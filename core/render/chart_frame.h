@@ -18,6 +18,7 @@ class Scale {
   void setPixels(double atLow, double atHigh);
 
   double operator()(double value) const;
+  double valueAt(double pixel) const;  ///< beyond the ends of the axis too
   /// A mark of the scale.
   struct Tick {
     double value;

@@ -31,7 +31,23 @@ std::string withLeftOut(const std::string& caption, std::size_t leftOut) {
   return caption + (caption.empty() ? "" : " ") + std::to_string(leftOut) + " value(s) not finite, left out.";
 }
 
-void paintChart(Painter& paint, const Histogram& chart, const ChartSize& size) {
+/// For asking where things are, without drawing.
+class NoPainter final : public Painter {
+ public:
+  void line(const Point&, const Point&, const Stroke&) override {}
+  void polygon(const std::vector<Point>&, Rgb, double) override {}
+  void disc(const Point&, double, Rgb, double) override {}
+  void text(const Point&, const std::string&, const TextStyle&) override {}
+};
+
+struct HistogramLayout {
+  std::size_t count = 0;  ///< of values that are finite
+  Bins bins;
+  ChartFrame frame;
+  Scale x, y;
+};
+
+HistogramLayout layOut(Painter& paint, const Histogram& chart, const ChartSize& size) {
   const std::vector<double> values = finite(chart.values);
   const Bins bins = binned(values, chart.binWidth);
   const double most = static_cast<double>(*std::max_element(bins.counts.begin(), bins.counts.end()));
@@ -42,9 +58,14 @@ void paintChart(Painter& paint, const Histogram& chart, const ChartSize& size) {
   }
   const ChartFrame frame =
       beginChart(paint, size, chart.title, withLeftOut(chart.caption, chart.values.size() - values.size()), false);
-  Scale x(chart.x, low, high), y(chart.y, 0.0, 1.08 * most);
-  x.setPixels(frame.x0, frame.x1);
-  y.setPixels(frame.y1, frame.y0);
+  HistogramLayout made{values.size(), bins, frame, Scale(chart.x, low, high), Scale(chart.y, 0.0, 1.08 * most)};
+  made.x.setPixels(frame.x0, frame.x1);
+  made.y.setPixels(frame.y1, frame.y0);
+  return made;
+}
+
+void paintChart(Painter& paint, const Histogram& chart, const ChartSize& size) {
+  const auto& [count, bins, frame, x, y] = layOut(paint, chart, size);
   drawAxisY(paint, frame, y, chart.y.title);
   for (std::size_t n = 0; n < bins.counts.size(); ++n) {
     if (bins.counts[n] == 0) continue;
@@ -56,11 +77,18 @@ void paintChart(Painter& paint, const Histogram& chart, const ChartSize& size) {
   }
   drawAxisX(paint, frame, x, chart.x.title, false);
   drawVertical(paint, frame, x, chart.lines);
-  paint.text({frame.x1, frame.y0 - 0.5 * frame.font}, "n = " + std::to_string(values.size()),
+  paint.text({frame.x1, frame.y0 - 0.5 * frame.font}, "n = " + std::to_string(count),
              {.size_px = frame.font, .colour = ink, .anchor = Anchor::Right});
 }
 
-void paintChart(Painter& paint, const BoxPlot& chart, const ChartSize& size) {
+struct BoxLayout {
+  std::vector<std::vector<double>> groups;  ///< finite values
+  ChartFrame frame;
+  Scale y;
+  double slot = 0.0;  ///< width of the place of a box
+};
+
+BoxLayout layOut(Painter& paint, const BoxPlot& chart, const ChartSize& size) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   std::size_t leftOut = 0;
   std::vector<std::vector<double>> groups;
@@ -81,12 +109,18 @@ void paintChart(Painter& paint, const BoxPlot& chart, const ChartSize& size) {
   const ChartFrame frame = beginChart(paint, size, chart.title, withLeftOut(chart.caption, leftOut), false);
   Scale y(chart.y, low, high);
   y.setPixels(frame.y1, frame.y0);
-  drawAxisY(paint, frame, y, chart.y.title);
   double gutter = 0.0;  // the labels of the lines stand beside the boxes, never under them
   for (const ReferenceLine& line : chart.lines)
     gutter = std::max(gutter, textWidth(line.label, 0.9 * frame.font, true) + 0.5 * frame.font);
   gutter = std::min(gutter, 0.4 * (frame.x1 - frame.x0));
-  const double f = frame.font, slot = (frame.x1 - gutter - frame.x0) / static_cast<double>(groups.size());
+  const double slot = (frame.x1 - gutter - frame.x0) / static_cast<double>(groups.size());
+  return {std::move(groups), frame, std::move(y), slot};
+}
+
+void paintChart(Painter& paint, const BoxPlot& chart, const ChartSize& size) {
+  const auto& [groups, frame, y, slot] = layOut(paint, chart, size);
+  drawAxisY(paint, frame, y, chart.y.title);
+  const double f = frame.font;
   const double half = std::min(0.28 * slot, 4.5 * f);
   const Stroke pen{.colour = ink, .width = f / 9.0};
   std::vector<Stretch> taken;
@@ -160,6 +194,27 @@ std::string svg(const BoxPlot& chart, const ChartSize& size) {
 }
 std::string svg(const XyChart& chart, const ChartSize& size) {
   return written(chart, size);
+}
+
+std::optional<Column> columnAt(const Histogram& chart, const Point& pixel, const ChartSize& size) {
+  NoPainter nothing;
+  const HistogramLayout at = layOut(nothing, chart, size);
+  if (pixel.x() < at.frame.x0 || pixel.x() > at.frame.x1 || pixel.y() < at.frame.y0 || pixel.y() > at.frame.y1)
+    return {};
+  const double n = std::floor((at.x.valueAt(pixel.x()) - at.bins.start) / chart.binWidth);
+  if (n < 0.0 || n >= static_cast<double>(at.bins.counts.size()) || at.bins.counts[static_cast<std::size_t>(n)] == 0)
+    return {};
+  return Column{at.bins.start + n * chart.binWidth, at.bins.start + (n + 1.0) * chart.binWidth};
+}
+
+std::optional<PlaceInBoxes> placeAt(const BoxPlot& chart, const Point& pixel, const ChartSize& size) {
+  NoPainter nothing;
+  const BoxLayout at = layOut(nothing, chart, size);
+  if (pixel.x() < at.frame.x0 || pixel.x() > at.frame.x1 || pixel.y() < at.frame.y0 || pixel.y() > at.frame.y1)
+    return {};
+  const double box = std::floor((pixel.x() - at.frame.x0) / at.slot);
+  if (box >= static_cast<double>(at.groups.size())) return {};
+  return PlaceInBoxes{static_cast<std::size_t>(box), at.y.valueAt(pixel.y())};
 }
 
 std::vector<std::size_t> paretoFront(const std::vector<double>& x, const std::vector<double>& y) {

@@ -89,6 +89,21 @@ std::string svg(const Histogram& chart, const ChartSize& size = {});
 std::string svg(const BoxPlot& chart, const ChartSize& size = {});
 std::string svg(const XyChart& chart, const ChartSize& size = {});
 
+/// The column of a histogram, drawn at that size, that a pixel lies in: from its lower end up to its upper one. Nothing
+/// outside of the plot area, and where a column is empty.
+struct Column {
+  double low = 0.0, high = 0.0;
+};
+std::optional<Column> columnAt(const Histogram& chart, const Point& pixel, const ChartSize& size = {});
+
+/// The box of a plot, drawn at that size, above or below which a pixel lies, and the value at its height. Nothing
+/// outside of the plot area.
+struct PlaceInBoxes {
+  std::size_t box = 0;
+  double value = 0.0;
+};
+std::optional<PlaceInBoxes> placeAt(const BoxPlot& chart, const Point& pixel, const ChartSize& size = {});
+
 /// Indices of the points that no other beats in both x and y, by growing x; equal points are all kept.
 std::vector<std::size_t> paretoFront(const std::vector<double>& x, const std::vector<double>& y);
 

@@ -1068,6 +1068,66 @@
             <source>Research use only, not for clinical use</source>
             <translation>Nur für die Forschung, nicht für die klinische Anwendung</translation>
         </message>
+        <message>
+            <source>&amp;Tools</source>
+            <translation>&amp;Werkzeuge</translation>
+        </message>
+        <message>
+            <source>&amp;Export DICOM, NIfTI, VTK, Slicer, SOFA…</source>
+            <translation>DICOM, NIfTI, VTK, Slicer, SOFA &amp;exportieren…</translation>
+        </message>
+        <message>
+            <source>&amp;Compare two runs…</source>
+            <translation>Zwei Läufe &amp;vergleichen…</translation>
+        </message>
+        <message>
+            <source>C&amp;ohort…</source>
+            <translation>K&amp;ohorte…</translation>
+        </message>
+        <message>
+            <source>&amp;PACS…</source>
+            <translation>&amp;PACS…</translation>
+        </message>
+        <message>
+            <source>&amp;De-identify a folder…</source>
+            <translation>Einen Ordner pseu&amp;donymisieren…</translation>
+        </message>
+        <message>
+            <source>P&amp;references…</source>
+            <translation>&amp;Einstellungen…</translation>
+        </message>
+        <message>
+            <source>Export</source>
+            <translation>Exportieren</translation>
+        </message>
+        <message>
+            <source>Theme</source>
+            <translation>Farbschema</translation>
+        </message>
+        <message>
+            <source>Language, from the next start on</source>
+            <translation>Sprache, vom nächsten Start an</translation>
+        </message>
+        <message>
+            <source>Mouse, over an image</source>
+            <translation>Maus, über einem Bild</translation>
+        </message>
+        <message>
+            <source>Keys</source>
+            <translation>Tasten</translation>
+        </message>
+        <message>
+            <source>Look at and change…</source>
+            <translation>Ansehen und ändern…</translation>
+        </message>
+        <message>
+            <source>PACS</source>
+            <translation>PACS</translation>
+        </message>
+        <message>
+            <source>Servers…</source>
+            <translation>Server…</translation>
+        </message>
     </context>
     <context>
         <name>glisson::panels::MethodChart</name>
@@ -4448,6 +4508,1010 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>done</source>
             <translation>fertig</translation>
+        </message>
+        <message>
+            <source>de-identifying</source>
+            <translation>Pseudonymisieren</translation>
+        </message>
+        <message>
+            <source>asking for studies</source>
+            <translation>nach Studien wird gefragt</translation>
+        </message>
+        <message>
+            <source>asking for series</source>
+            <translation>nach Serien wird gefragt</translation>
+        </message>
+    </context>
+    <context>
+        <name>cohort</name>
+        <message>
+            <source>one MRI voxel</source>
+            <translation>ein MRT-Voxel</translation>
+        </message>
+        <message>
+            <source>clinically significant</source>
+            <translation>klinisch bedeutsam</translation>
+        </message>
+        <message>
+            <source>Difference at the retractor</source>
+            <translation>Unterschied am Retraktor</translation>
+        </message>
+        <message>
+            <source>Error of that by the cells</source>
+            <translation>Dessen Fehler durch die Zellen</translation>
+        </message>
+        <message>
+            <source>Mean difference</source>
+            <translation>Mittlerer Unterschied</translation>
+        </message>
+        <message>
+            <source>95 % of the liver within</source>
+            <translation>95 % der Leber innerhalb</translation>
+        </message>
+        <message>
+            <source>Largest difference</source>
+            <translation>Größter Unterschied</translation>
+        </message>
+        <message>
+            <source>Mean difference of vessels</source>
+            <translation>Mittlerer Unterschied der Gefäße</translation>
+        </message>
+        <message>
+            <source>Shear modulus µ</source>
+            <translation>Schubmodul µ</translation>
+        </message>
+        <message>
+            <source>textbook</source>
+            <translation>Lehrbuch</translation>
+        </message>
+        <message>
+            <source>SD of µ</source>
+            <translation>SD von µ</translation>
+        </message>
+        <message>
+            <source>Volume</source>
+            <translation>Volumen</translation>
+        </message>
+        <message>
+            <source>Travel of the bar</source>
+            <translation>Weg des Stabs</translation>
+        </message>
+        <message>
+            <source>Travel, measured less atlas</source>
+            <translation>Weg, gemessen minus Atlas</translation>
+        </message>
+        <message>
+            <source>Strain, 95 % below</source>
+            <translation>Dehnung, 95 % darunter</translation>
+        </message>
+        <message>
+            <source>Largest rotation</source>
+            <translation>Größte Drehung</translation>
+        </message>
+    </context>
+    <context>
+        <name>figures</name>
+        <message>
+            <source>Mean stiffness of the liver</source>
+            <translation>Mittlere Steifigkeit der Leber</translation>
+        </message>
+        <message>
+            <source>SD of the stiffness</source>
+            <translation>SD der Steifigkeit</translation>
+        </message>
+        <message>
+            <source>Volume</source>
+            <translation>Volumen</translation>
+        </message>
+        <message>
+            <source>Difference at the retractor</source>
+            <translation>Unterschied am Retraktor</translation>
+        </message>
+        <message>
+            <source>Its error by the cells</source>
+            <translation>Dessen Fehler durch die Zellen</translation>
+        </message>
+        <message>
+            <source>Mean difference</source>
+            <translation>Mittlerer Unterschied</translation>
+        </message>
+        <message>
+            <source>95 % of the liver within</source>
+            <translation>95 % der Leber innerhalb</translation>
+        </message>
+        <message>
+            <source>Largest difference</source>
+            <translation>Größter Unterschied</translation>
+        </message>
+        <message>
+            <source>Mean difference of vessels</source>
+            <translation>Mittlerer Unterschied der Gefäße</translation>
+        </message>
+        <message>
+            <source>Vessels 5 mm apart or more</source>
+            <translation>Gefäße mit 5 mm Abstand oder mehr</translation>
+        </message>
+        <message>
+            <source>Travel of the bar, measured</source>
+            <translation>Weg des Stabs, gemessen</translation>
+        </message>
+        <message>
+            <source>Travel of the bar, atlas</source>
+            <translation>Weg des Stabs, Atlas</translation>
+        </message>
+        <message>
+            <source>Force along the hoist</source>
+            <translation>Kraft entlang des Zugs</translation>
+        </message>
+        <message>
+            <source>Contact area</source>
+            <translation>Kontaktfläche</translation>
+        </message>
+        <message>
+            <source>Largest pressure</source>
+            <translation>Größter Druck</translation>
+        </message>
+        <message>
+            <source>Largest displacement</source>
+            <translation>Größte Verschiebung</translation>
+        </message>
+        <message>
+            <source>Strain, 95 % below</source>
+            <translation>Dehnung, 95 % darunter</translation>
+        </message>
+        <message>
+            <source>Largest rotation</source>
+            <translation>Größte Drehung</translation>
+        </message>
+        <message>
+            <source>Error of a place by the cells</source>
+            <translation>Fehler eines Orts durch die Zellen</translation>
+        </message>
+        <message>
+            <source>Unknowns</source>
+            <translation>Unbekannte</translation>
+        </message>
+    </context>
+    <context>
+        <name>formats</name>
+        <message>
+            <source>RT Structure Set of the outlines</source>
+            <translation>RT Structure Set der Konturen</translation>
+        </message>
+        <message>
+            <source>Segmentation of the liver</source>
+            <translation>Segmentation der Leber</translation>
+        </message>
+        <message>
+            <source>Parametric Map of the stiffness in kPa</source>
+            <translation>Parametric Map der Steifigkeit in kPa</translation>
+        </message>
+        <message>
+            <source>Structured report of the stiffness (TID 1500)</source>
+            <translation>Strukturierter Bericht der Steifigkeit (TID 1500)</translation>
+        </message>
+        <message>
+            <source>Pictures of the run as Secondary Captures</source>
+            <translation>Bilder des Laufs als Secondary Captures</translation>
+        </message>
+        <message>
+            <source>Liver mask as NIfTI</source>
+            <translation>Lebermaske als NIfTI</translation>
+        </message>
+        <message>
+            <source>Liver mask as 3D Slicer segmentation</source>
+            <translation>Lebermaske als 3D-Slicer-Segmentierung</translation>
+        </message>
+        <message>
+            <source>Outlines as JSON</source>
+            <translation>Konturen als JSON</translation>
+        </message>
+        <message>
+            <source>Outlines as 3D Slicer markups</source>
+            <translation>Konturen als 3D-Slicer-Markups</translation>
+        </message>
+        <message>
+            <source>Displacement field as 4-D NRRD</source>
+            <translation>Verschiebungsfeld als 4-D-NRRD</translation>
+        </message>
+        <message>
+            <source>VTK meshes, at rest and deformed (ParaView)</source>
+            <translation>VTK-Netze, in Ruhe und verformt (ParaView)</translation>
+        </message>
+        <message>
+            <source>Stiffness and mass matrix as Matrix Market</source>
+            <translation>Steifigkeits- und Massenmatrix als Matrix Market</translation>
+        </message>
+        <message>
+            <source>3D Slicer scene with images, outlines, surfaces</source>
+            <translation>3D-Slicer-Szene mit Bildern, Konturen, Oberflächen</translation>
+        </message>
+        <message>
+            <source>SOFA scene</source>
+            <translation>SOFA-Szene</translation>
+        </message>
+        <message>
+            <source>Stiffness and displacement as a table (CSV)</source>
+            <translation>Steifigkeit und Verschiebung als Tabelle (CSV)</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::CohortModel</name>
+        <message>
+            <source>done</source>
+            <translation>fertig</translation>
+        </message>
+        <message>
+            <source>left out</source>
+            <translation>weggelassen</translation>
+        </message>
+        <message>
+            <source>failed</source>
+            <translation>gescheitert</translation>
+        </message>
+        <message>
+            <source>Patient</source>
+            <translation>Patient</translation>
+        </message>
+        <message>
+            <source>State</source>
+            <translation>Stand</translation>
+        </message>
+        <message>
+            <source>Why</source>
+            <translation>Grund</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::CohortWindow</name>
+        <message>
+            <source>Cohort</source>
+            <translation>Kohorte</translation>
+        </message>
+        <message>
+            <source>Open patient</source>
+            <translation>Patient öffnen</translation>
+        </message>
+        <message>
+            <source>Shows the patient chosen in the table in the window</source>
+            <translation>Zeigt den in der Tabelle gewählten Patienten im Fenster</translation>
+        </message>
+        <message>
+            <source>Results of a cohort, or a folder of runs and saved cases</source>
+            <translation>Ergebnisse einer Kohorte, oder ein Ordner mit Läufen und gespeicherten Fällen</translation>
+        </message>
+        <message>
+            <source>Folder of a cohort or of runs</source>
+            <translation>Ordner einer Kohorte oder von Läufen</translation>
+        </message>
+        <message>
+            <source>Patient, state, reason or warning</source>
+            <translation>Patient, Stand, Grund oder Warnung</translation>
+        </message>
+        <message>
+            <source>Figure of the charts and limits</source>
+            <translation>Größe der Diagramme und Grenzen</translation>
+        </message>
+        <message>
+            <source>from</source>
+            <translation>von</translation>
+        </message>
+        <message>
+            <source>to</source>
+            <translation>bis</translation>
+        </message>
+        <message>
+            <source>Show</source>
+            <translation>Zeigen</translation>
+        </message>
+        <message>
+            <source>Patients</source>
+            <translation>Patienten</translation>
+        </message>
+        <message>
+            <source>Click: chooses the patients of a column; double-click: opens the first of them</source>
+            <translation>Klick: wählt die Patienten einer Säule; Doppelklick: öffnet den ersten davon</translation>
+        </message>
+        <message>
+            <source>Click: chooses the patient nearest to that height; double-click: opens it</source>
+            <translation>Klick: wählt den Patienten, der dieser Höhe am nächsten liegt; Doppelklick: öffnet ihn</translation>
+        </message>
+        <message>
+            <source>Reading</source>
+            <translation>Lesen</translation>
+        </message>
+        <message>
+            <source>Folders that hold nothing to show: %1.</source>
+            <translation>Ordner, in denen nichts zu zeigen ist: %1.</translation>
+        </message>
+        <message>
+            <source>%1 of %2 patients</source>
+            <translation>%1 von %2 Patienten</translation>
+        </message>
+        <message>
+            <source>Choose the folder of a cohort or of runs: its figures appear here.</source>
+            <translation>Den Ordner einer Kohorte oder von Läufen wählen: hier erscheinen ihre Zahlen.</translation>
+        </message>
+        <message>
+            <source>No patient that is shown has this figure.</source>
+            <translation>Kein gezeigter Patient hat diese Größe.</translation>
+        </message>
+        <message>
+            <source>shown</source>
+            <translation>gezeigt</translation>
+        </message>
+        <message>
+            <source>%1: mean %2, SD %3, median %4, %5 to %6, n = %7</source>
+            <translation>%1: Mittel %2, SD %3, Median %4, %5 bis %6, n = %7</translation>
+        </message>
+        <message>
+            <source>The images of this run are not where it says.</source>
+            <translation>Die Bilder dieses Laufs sind nicht dort, wo er sagt.</translation>
+        </message>
+        <message>
+            <source>Folder of the patients, that the cohort was run over</source>
+            <translation>Ordner der Patienten, über die die Kohorte gerechnet wurde</translation>
+        </message>
+        <message>
+            <source>Looking for the patient</source>
+            <translation>Der Patient wird gesucht</translation>
+        </message>
+        <message>
+            <source>The files of this patient are not known to be those that the result was made of: they have changed, or another version or a scene of its own was used. Open them?</source>
+            <translation>Ob das Ergebnis aus den Dateien dieses Patienten entstand, ist nicht sicher: sie haben sich geändert, oder es war eine andere Version oder eine eigene Szene. Trotzdem öffnen?</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::DeidentifyDialog</name>
+        <message>
+            <source>De-identify</source>
+            <translation>Pseudonymisieren</translation>
+        </message>
+        <message>
+            <source>Copies DICOM files without what identifies the patient: the basic profile of PS3.15, and stricter on free text. The files that are read stay as they are.</source>
+            <translation>Kopiert DICOM-Dateien ohne das, was den Patienten erkennen lässt: das Grundprofil von PS3.15, bei freiem Text strenger. Die gelesenen Dateien bleiben, wie sie sind.</translation>
+        </message>
+        <message>
+            <source>From</source>
+            <translation>Aus</translation>
+        </message>
+        <message>
+            <source>DICOM folder to read</source>
+            <translation>DICOM-Ordner, der gelesen wird</translation>
+        </message>
+        <message>
+            <source>Into</source>
+            <translation>Nach</translation>
+        </message>
+        <message>
+            <source>Folder for the copies, new or empty</source>
+            <translation>Ordner für die Kopien, neu oder leer</translation>
+        </message>
+        <message>
+            <source>Folder for the copies</source>
+            <translation>Ordner für die Kopien</translation>
+        </message>
+        <message>
+            <source>Key file of the project</source>
+            <translation>Schlüsseldatei des Projekts</translation>
+        </message>
+        <message>
+            <source>Pseudonyms follow from it; made where there is none. Keep it apart from the copies.</source>
+            <translation>Aus ihr folgen die Pseudonyme; fehlt sie, wird sie gemacht. Getrennt von den Kopien aufbewahren.</translation>
+        </message>
+        <message>
+            <source>Keep dates, all of one patient shifted by the same days</source>
+            <translation>Daten behalten, alle eines Patienten um gleich viele Tage verschoben</translation>
+        </message>
+        <message>
+            <source>Keep the technical words of descriptions</source>
+            <translation>Technische Wörter der Beschreibungen behalten</translation>
+        </message>
+        <message>
+            <source>Keep age, sex, size and weight</source>
+            <translation>Alter, Geschlecht, Größe und Gewicht behalten</translation>
+        </message>
+        <message>
+            <source>Open the copies</source>
+            <translation>Kopien öffnen</translation>
+        </message>
+        <message>
+            <source>Opens the folder that was written</source>
+            <translation>Öffnet den geschriebenen Ordner</translation>
+        </message>
+        <message>
+            <source>De-identifying</source>
+            <translation>Pseudonymisierung</translation>
+        </message>
+        <message>
+            <source>Nothing was written</source>
+            <translation>Nichts wurde geschrieben</translation>
+        </message>
+        <message>
+            <source>Files written: %1, patients: %2</source>
+            <translation>Dateien geschrieben: %1, Patienten: %2</translation>
+        </message>
+        <message>
+            <source>Attributes changed in these files:</source>
+            <translation>In diesen Dateien geänderte Attribute:</translation>
+        </message>
+        <message>
+            <source>removed</source>
+            <translation>entfernt</translation>
+        </message>
+        <message>
+            <source>private ones removed</source>
+            <translation>private entfernt</translation>
+        </message>
+        <message>
+            <source>emptied</source>
+            <translation>geleert</translation>
+        </message>
+        <message>
+            <source>replaced by a pseudonym or a word of no meaning</source>
+            <translation>durch ein Pseudonym oder ein Wort ohne Bedeutung ersetzt</translation>
+        </message>
+        <message>
+            <source>dates shifted</source>
+            <translation>Daten verschoben</translation>
+        </message>
+        <message>
+            <source>dates taken away</source>
+            <translation>Daten weggenommen</translation>
+        </message>
+        <message>
+            <source>UIDs mapped by the key</source>
+            <translation>UIDs nach dem Schlüssel ersetzt</translation>
+        </message>
+        <message>
+            <source>codes of unknown schemes</source>
+            <translation>Codes unbekannter Schemata</translation>
+        </message>
+        <message>
+            <source>%1 × a file that %2</source>
+            <translation>%1 × eine Datei: %2</translation>
+        </message>
+        <message>
+            <source>Left out</source>
+            <translation>Weggelassen</translation>
+        </message>
+        <message>
+            <source>A new key file was made: with another one, pseudonyms would be others.</source>
+            <translation>Eine neue Schlüsseldatei wurde gemacht: mit einer anderen wären es andere Pseudonyme.</translation>
+        </message>
+        <message>
+            <source>To be known</source>
+            <translation>Zu wissen</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::ExportDialog</name>
+        <message>
+            <source>Export</source>
+            <translation>Exportieren</translation>
+        </message>
+        <message>
+            <source>Folder</source>
+            <translation>Ordner</translation>
+        </message>
+        <message>
+            <source>Where the files are written</source>
+            <translation>Wohin die Dateien geschrieben werden</translation>
+        </message>
+        <message>
+            <source>Folder for the export</source>
+            <translation>Ordner für den Export</translation>
+        </message>
+        <message>
+            <source>Replace files of the same name</source>
+            <translation>Dateien gleichen Namens ersetzen</translation>
+        </message>
+        <message>
+            <source>Otherwise the folder must be new or empty</source>
+            <translation>Sonst muss der Ordner neu oder leer sein</translation>
+        </message>
+        <message>
+            <source>Case in the table, no patient&apos;s name</source>
+            <translation>Fall in der Tabelle, kein Patientenname</translation>
+        </message>
+        <message>
+            <source>Reader in the table</source>
+            <translation>Befunder in der Tabelle</translation>
+        </message>
+        <message>
+            <source>DICOM</source>
+            <translation>DICOM</translation>
+        </message>
+        <message>
+            <source>Images and outlines</source>
+            <translation>Bilder und Konturen</translation>
+        </message>
+        <message>
+            <source>Meshes and matrices</source>
+            <translation>Netze und Matrizen</translation>
+        </message>
+        <message>
+            <source>Other programs</source>
+            <translation>Andere Programme</translation>
+        </message>
+        <message>
+            <source>Tables</source>
+            <translation>Tabellen</translation>
+        </message>
+        <message>
+            <source>Needs an accepted outline of the liver.</source>
+            <translation>Braucht eine angenommene Kontur der Leber.</translation>
+        </message>
+        <message>
+            <source>Needs an elastogram and an accepted outline of the liver.</source>
+            <translation>Braucht ein Elastogramm und eine angenommene Kontur der Leber.</translation>
+        </message>
+        <message>
+            <source>Needs a run of what is shown: run the retraction first.</source>
+            <translation>Braucht einen Lauf dessen, was gezeigt wird: zuerst die Retraktion rechnen.</translation>
+        </message>
+        <message>
+            <source>Exporting</source>
+            <translation>Export</translation>
+        </message>
+        <message>
+            <source>Nothing was written</source>
+            <translation>Nichts wurde geschrieben</translation>
+        </message>
+        <message>
+            <source>Not written</source>
+            <translation>Nicht geschrieben</translation>
+        </message>
+        <message>
+            <source>Files written: %1</source>
+            <translation>Dateien geschrieben: %1</translation>
+        </message>
+        <message>
+            <source>To be known</source>
+            <translation>Zu wissen</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::PacsDialog</name>
+        <message>
+            <source>PACS</source>
+            <translation>PACS</translation>
+        </message>
+        <message>
+            <source>Find and fetch</source>
+            <translation>Suchen und holen</translation>
+        </message>
+        <message>
+            <source>Send</source>
+            <translation>Senden</translation>
+        </message>
+        <message>
+            <source>My server</source>
+            <translation>Mein Server</translation>
+        </message>
+        <message>
+            <source>Servers that are kept; the name can be changed</source>
+            <translation>Gemerkte Server; der Name lässt sich ändern</translation>
+        </message>
+        <message>
+            <source>Server</source>
+            <translation>Server</translation>
+        </message>
+        <message>
+            <source>Add</source>
+            <translation>Hinzufügen</translation>
+        </message>
+        <message>
+            <source>One more server</source>
+            <translation>Ein weiterer Server</translation>
+        </message>
+        <message>
+            <source>Remove</source>
+            <translation>Entfernen</translation>
+        </message>
+        <message>
+            <source>Forgets this server</source>
+            <translation>Vergisst diesen Server</translation>
+        </message>
+        <message>
+            <source>Does it answer?</source>
+            <translation>Antwortet er?</translation>
+        </message>
+        <message>
+            <source>Asks the server whether it is there and knows us (C-ECHO)</source>
+            <translation>Fragt den Server, ob er da ist und uns kennt (C-ECHO)</translation>
+        </message>
+        <message>
+            <source>Name or address</source>
+            <translation>Name oder Adresse</translation>
+        </message>
+        <message>
+            <source>The server&apos;s name or address</source>
+            <translation>Name oder Adresse des Servers</translation>
+        </message>
+        <message>
+            <source>The server&apos;s port</source>
+            <translation>Port des Servers</translation>
+        </message>
+        <message>
+            <source>Its AE title</source>
+            <translation>Sein AE-Titel</translation>
+        </message>
+        <message>
+            <source>The server&apos;s AE title</source>
+            <translation>AE-Titel des Servers</translation>
+        </message>
+        <message>
+            <source>Our AE title</source>
+            <translation>Unser AE-Titel</translation>
+        </message>
+        <message>
+            <source>Our AE title, by which the server knows us</source>
+            <translation>Unser AE-Titel, unter dem der Server uns kennt</translation>
+        </message>
+        <message>
+            <source>Fetch by C-MOVE, received at</source>
+            <translation>Holen mit C-MOVE, Empfang auf</translation>
+        </message>
+        <message>
+            <source>For servers without C-GET. They must know our AE title, this computer and this port.</source>
+            <translation>Für Server ohne C-GET. Sie müssen unseren AE-Titel, diesen Rechner und diesen Port kennen.</translation>
+        </message>
+        <message>
+            <source>Our port, to which the server sends</source>
+            <translation>Unser Port, an den der Server sendet</translation>
+        </message>
+        <message>
+            <source>The connection is not encrypted: for a trusted network only.</source>
+            <translation>Die Verbindung ist nicht verschlüsselt: nur für ein vertrauenswürdiges Netz.</translation>
+        </message>
+        <message>
+            <source>Server %1</source>
+            <translation>Server %1</translation>
+        </message>
+        <message>
+            <source>Asking</source>
+            <translation>Anfrage</translation>
+        </message>
+        <message>
+            <source>The server answers after %1 ms.</source>
+            <translation>Der Server antwortet nach %1 ms.</translation>
+        </message>
+        <message>
+            <source>* stands for any text, ? for any letter</source>
+            <translation>* steht für beliebigen Text, ? für einen Buchstaben</translation>
+        </message>
+        <message>
+            <source>Patient ID</source>
+            <translation>Patienten-ID</translation>
+        </message>
+        <message>
+            <source>Patient name</source>
+            <translation>Patientenname</translation>
+        </message>
+        <message>
+            <source>Study date</source>
+            <translation>Studiendatum</translation>
+        </message>
+        <message>
+            <source>2026-01-31, or a range: 2026-01-01..2026-01-31, 2026-01-01..</source>
+            <translation>2026-01-31, oder ein Zeitraum: 2026-01-01..2026-01-31, 2026-01-01..</translation>
+        </message>
+        <message>
+            <source>Modality</source>
+            <translation>Modalität</translation>
+        </message>
+        <message>
+            <source>MR, for instance</source>
+            <translation>Zum Beispiel MR</translation>
+        </message>
+        <message>
+            <source>Description</source>
+            <translation>Beschreibung</translation>
+        </message>
+        <message>
+            <source>Accession number</source>
+            <translation>Auftragsnummer</translation>
+        </message>
+        <message>
+            <source>Show who the patients are</source>
+            <translation>Zeigen, wer die Patienten sind</translation>
+        </message>
+        <message>
+            <source>Otherwise patients are numbered, and their names are not even asked for</source>
+            <translation>Sonst werden Patienten nummeriert, und nach ihren Namen wird nicht einmal gefragt</translation>
+        </message>
+        <message>
+            <source>Find</source>
+            <translation>Suchen</translation>
+        </message>
+        <message>
+            <source>Lists studies and their series (C-FIND)</source>
+            <translation>Listet Studien und ihre Serien (C-FIND)</translation>
+        </message>
+        <message>
+            <source>Studies found</source>
+            <translation>Gefundene Studien</translation>
+        </message>
+        <message>
+            <source>Patient</source>
+            <translation>Patient</translation>
+        </message>
+        <message>
+            <source>Date</source>
+            <translation>Datum</translation>
+        </message>
+        <message>
+            <source>Series</source>
+            <translation>Serien</translation>
+        </message>
+        <message>
+            <source>Images</source>
+            <translation>Bilder</translation>
+        </message>
+        <message>
+            <source>Folder for what is fetched; each study gets one of its own in it</source>
+            <translation>Ordner für das Geholte; jede Studie bekommt darin einen eigenen</translation>
+        </message>
+        <message>
+            <source>Folder for what is fetched</source>
+            <translation>Ordner für das Geholte</translation>
+        </message>
+        <message>
+            <source>Fetch</source>
+            <translation>Holen</translation>
+        </message>
+        <message>
+            <source>Fetches the studies or series chosen in the list</source>
+            <translation>Holt die in der Liste gewählten Studien oder Serien</translation>
+        </message>
+        <message>
+            <source>Open what was fetched</source>
+            <translation>Geholtes öffnen</translation>
+        </message>
+        <message>
+            <source>Opens it in the window</source>
+            <translation>Öffnet es im Fenster</translation>
+        </message>
+        <message>
+            <source>Patient %1</source>
+            <translation>Patient %1</translation>
+        </message>
+        <message>
+            <source>Series %1</source>
+            <translation>Serie %1</translation>
+        </message>
+        <message>
+            <source>The server has nothing of that kind.</source>
+            <translation>Der Server hat nichts dergleichen.</translation>
+        </message>
+        <message>
+            <source>%1 studies; there are more: narrow what you look for.</source>
+            <translation>%1 Studien; es gibt mehr: die Suche eingrenzen.</translation>
+        </message>
+        <message>
+            <source>Studies found: %1.</source>
+            <translation>Gefundene Studien: %1.</translation>
+        </message>
+        <message>
+            <source>Fetching</source>
+            <translation>Holen</translation>
+        </message>
+        <message>
+            <source>%1 What has arrived is kept.</source>
+            <translation>%1 Was ankam, bleibt.</translation>
+        </message>
+        <message>
+            <source>Images fetched: %1, there already: %2.</source>
+            <translation>Bilder geholt: %1, schon da: %2.</translation>
+        </message>
+        <message>
+            <source>Not everything has arrived: fetch again.</source>
+            <translation>Nicht alles ist angekommen: noch einmal holen.</translation>
+        </message>
+        <message>
+            <source>Refused: %1 (%2).</source>
+            <translation>Abgelehnt: %1 (%2).</translation>
+        </message>
+        <message>
+            <source>What is shown, as DICOM</source>
+            <translation>Was gezeigt wird, als DICOM</translation>
+        </message>
+        <message>
+            <source>Files and folders</source>
+            <translation>Dateien und Ordner</translation>
+        </message>
+        <message>
+            <source>Files and folders to send</source>
+            <translation>Dateien und Ordner zum Senden</translation>
+        </message>
+        <message>
+            <source>Add files…</source>
+            <translation>Dateien hinzufügen…</translation>
+        </message>
+        <message>
+            <source>DICOM files to send</source>
+            <translation>DICOM-Dateien zum Senden</translation>
+        </message>
+        <message>
+            <source>Add folder…</source>
+            <translation>Ordner hinzufügen…</translation>
+        </message>
+        <message>
+            <source>All DICOM files below a folder</source>
+            <translation>Alle DICOM-Dateien unter einem Ordner</translation>
+        </message>
+        <message>
+            <source>Clear</source>
+            <translation>Leeren</translation>
+        </message>
+        <message>
+            <source>Takes all from the list</source>
+            <translation>Nimmt alles aus der Liste</translation>
+        </message>
+        <message>
+            <source>Stores it on the server (C-STORE)</source>
+            <translation>Legt es auf dem Server ab (C-STORE)</translation>
+        </message>
+        <message>
+            <source>Folder to send</source>
+            <translation>Ordner zum Senden</translation>
+        </message>
+        <message>
+            <source>Needs an outlined liver, with elastogram or run where these are told of.</source>
+            <translation>Braucht eine umrissene Leber, mit Elastogramm oder Lauf, wo davon die Rede ist.</translation>
+        </message>
+        <message>
+            <source>Sending</source>
+            <translation>Senden</translation>
+        </message>
+        <message>
+            <source>Objects sent: %1.</source>
+            <translation>Objekte gesendet: %1.</translation>
+        </message>
+        <message>
+            <source>Not sent: %1 (%2).</source>
+            <translation>Nicht gesendet: %1 (%2).</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::PreferencesDialog</name>
+        <message>
+            <source>Preferences</source>
+            <translation>Einstellungen</translation>
+        </message>
+        <message>
+            <source>Kept for the next start. Parameters of a patient are no preferences: they are in its case.</source>
+            <translation>Gilt auch beim nächsten Start. Parameter eines Patienten sind keine Einstellungen: sie stehen in seinem Fall.</translation>
+        </message>
+        <message>
+            <source>Close</source>
+            <translation>Schließen</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::RunComparison</name>
+        <message>
+            <source>Compare two runs</source>
+            <translation>Zwei Läufe vergleichen</translation>
+        </message>
+        <message>
+            <source>First run</source>
+            <translation>Erster Lauf</translation>
+        </message>
+        <message>
+            <source>Second run</source>
+            <translation>Zweiter Lauf</translation>
+        </message>
+        <message>
+            <source>Another run…</source>
+            <translation>Anderer Lauf…</translation>
+        </message>
+        <message>
+            <source>The folder of a run, or of a case that keeps one</source>
+            <translation>Der Ordner eines Laufs, oder eines Falls, der einen behält</translation>
+        </message>
+        <message>
+            <source>against</source>
+            <translation>gegen</translation>
+        </message>
+        <message>
+            <source>Figures</source>
+            <translation>Zahlen</translation>
+        </message>
+        <message>
+            <source>Set otherwise</source>
+            <translation>Anders eingestellt</translation>
+        </message>
+        <message>
+            <source>Settings that differ</source>
+            <translation>Einstellungen, die sich unterscheiden</translation>
+        </message>
+        <message>
+            <source>Folder of a run, or of a case that keeps one</source>
+            <translation>Ordner eines Laufs, oder eines Falls, der einen behält</translation>
+        </message>
+        <message>
+            <source>Reading</source>
+            <translation>Lesen</translation>
+        </message>
+        <message>
+            <source>Run %1 from a folder</source>
+            <translation>Lauf %1 aus einem Ordner</translation>
+        </message>
+        <message>
+            <source>There is no run yet: run the retraction, or choose the folder of a run.</source>
+            <translation>Es gibt noch keinen Lauf: die Retraktion rechnen, oder den Ordner eines Laufs wählen.</translation>
+        </message>
+        <message>
+            <source>This is one run twice: choose another, run again, or take the folder of a run.</source>
+            <translation>Das ist zweimal derselbe Lauf: einen anderen wählen, noch einmal rechnen, oder den Ordner eines Laufs nehmen.</translation>
+        </message>
+        <message>
+            <source>The two runs are of different images.</source>
+            <translation>Die beiden Läufe sind von verschiedenen Bildern.</translation>
+        </message>
+        <message>
+            <source>Both runs have the same images, outlines and settings.</source>
+            <translation>Beide Läufe haben dieselben Bilder, Konturen und Einstellungen.</translation>
+        </message>
+        <message>
+            <source>Same images, other outlines.</source>
+            <translation>Dieselben Bilder, andere Konturen.</translation>
+        </message>
+        <message>
+            <source>Same images and outlines, other settings.</source>
+            <translation>Dieselben Bilder und Konturen, andere Einstellungen.</translation>
+        </message>
+        <message>
+            <source>Figure</source>
+            <translation>Größe</translation>
+        </message>
+        <message>
+            <source>Difference</source>
+            <translation>Unterschied</translation>
+        </message>
+        <message>
+            <source>Setting of the scene</source>
+            <translation>Einstellung der Szene</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::WorkDialog</name>
+        <message>
+            <source>Cancel</source>
+            <translation>Abbrechen</translation>
+        </message>
+        <message>
+            <source>Stops the work; what is complete stays</source>
+            <translation>Hält die Arbeit an; was vollständig ist, bleibt</translation>
+        </message>
+        <message>
+            <source>Close</source>
+            <translation>Schließen</translation>
+        </message>
+        <message>
+            <source>Cancelling</source>
+            <translation>Wird abgebrochen</translation>
+        </message>
+        <message>
+            <source>Choose…</source>
+            <translation>Wählen…</translation>
+        </message>
+        <message>
+            <source>cancelled</source>
+            <translation>abgebrochen</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::session::RunHistory</name>
+        <message>
+            <source>Run at %1</source>
+            <translation>Lauf um %1</translation>
+        </message>
+        <message>
+            <source>Run kept in the case</source>
+            <translation>Im Fall behaltener Lauf</translation>
         </message>
     </context>
 </TS>

@@ -82,6 +82,7 @@ MainWindow::MainWindow(QWidget* parent)
   row->addWidget(main, 1);
   setCentralWidget(centre);
   makeMenus();
+  makeToolsMenu();
   makeStatusLine();
   connectSession();
   refreshIcons();
@@ -202,6 +203,7 @@ void MainWindow::updateStatus() {
   compareReadersAction_->setEnabled(second);
   putAwayAction_->setEnabled(second);
   exportAction_->setEnabled(session_.picture() != nullptr && !session_.busy());
+  formatsAction_->setEnabled(open && !session_.busy());
   setWindowModified(session_.modified());
 }
 

@@ -14,6 +14,10 @@ class QProgressBar;
 class QPushButton;
 class QStackedWidget;
 
+namespace glisson::session {
+class RunHistory;
+}
+
 namespace glisson::panels {
 
 class ComparePage;
@@ -54,6 +58,12 @@ class MainWindow : public QMainWindow {
   void about();
   void showKeys();
   void showManual();
+  void exportFormats();  ///< standard files, by a dialog
+  void compareRuns();
+  void showCohort();
+  void showPacs();
+  void deidentify();
+  void showPreferences();
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -63,6 +73,9 @@ class MainWindow : public QMainWindow {
  private:
   void makeMenus();
   void makeMouseMenu(QMenu& menu);
+  void makeToolsMenu();
+  template <typename Dialog>
+  void openFrom(Dialog* dialog);
   void makeStatusLine();
   void connectSession();
   void refreshIcons();
@@ -99,7 +112,8 @@ class MainWindow : public QMainWindow {
   QAction *undoAction_ = nullptr, *redoAction_ = nullptr, *runAction_ = nullptr, *saveAction_ = nullptr,
           *importAction_ = nullptr, *interpolateAction_ = nullptr, *acceptAllAction_ = nullptr,
           *saveAsAction_ = nullptr, *exportAction_ = nullptr, *compareReadersAction_ = nullptr,
-          *putAwayAction_ = nullptr;
+          *putAwayAction_ = nullptr, *formatsAction_ = nullptr;
+  session::RunHistory* history_ = nullptr;
   bool remembers_ = false;  ///< its place on the screen
 };
 

@@ -81,6 +81,9 @@ constexpr InWords stepNames[] = {
     {"slices", QT_TRANSLATE_NOOP("steps", "drawing slices")},
     {"3-D", QT_TRANSLATE_NOOP("steps", "drawing in 3-D")},
     {"done", QT_TRANSLATE_NOOP("steps", "done")},
+    {"de-identifying", QT_TRANSLATE_NOOP("steps", "de-identifying")},
+    {"asking for studies", QT_TRANSLATE_NOOP("steps", "asking for studies")},
+    {"asking for series", QT_TRANSLATE_NOOP("steps", "asking for series")},
 };
 
 }  // namespace
@@ -99,6 +102,28 @@ QStringList said(const std::vector<std::string>& texts, const Diagnostics& diagn
     all << (found == diagnostics.end() ? QString::fromStdString(text) : said(*found));
   }
   return all;
+}
+
+QString withoutOptions(QString reason) {
+  // A longer option before one that it begins with.
+  static constexpr InWords options[] = {{"--patient-id", "a patient ID"},
+                                        {"--patient-name", "a patient name"},
+                                        {"--study-date", "a study date"},
+                                        {"--modality", "a modality"},
+                                        {"--accession", "an accession number"},
+                                        {"--description", "a description"},
+                                        {"--study", "a study"},
+                                        {"--series-uid", "a series"},
+                                        {"--host", "the address"},
+                                        {"--port", "the port"},
+                                        {"--called", "the server's AE title"},
+                                        {"--calling", "our AE title"},
+                                        {"--receive-port", "our own port"},
+                                        {"--move", "C-MOVE"},
+                                        {"--timeout", "time-out"},
+                                        {" with --output", ""}};
+  for (const InWords& option : options) reason.replace(QLatin1String(option.name), QLatin1String(option.words));
+  return reason;
 }
 
 QString stepInWords(const QString& step) {

@@ -17,6 +17,10 @@ QString said(const Diagnostic& diagnostic);
 /// Texts that core made, in their order: those of the diagnostics in the reader's language, the others as they are.
 QStringList said(const std::vector<std::string>& texts, const Diagnostics& diagnostics);
 
+/// A reason that core gives, without the options of the command line that it names: "check --host" is "check the
+/// address".
+QString withoutOptions(QString reason);
+
 /// A step of a plan, or what work tells of its progress, in words and in the reader's language: "atlas-solve" is
 /// "solving with the atlas stiffness". What is not known stays as it is.
 QString stepInWords(const QString& step);

@@ -35,6 +35,7 @@
 namespace glisson::session {
 
 class ModelPreview;
+struct ExportSource;
 
 /// What stands between the MRI and its elastogram.
 struct Question {
@@ -203,6 +204,8 @@ class Session : public QObject {
   QString runFolder() const;
   /// Pictures, report and record of the last run (export_results.h) into the folder, by a worker; ends with exported.
   void exportInto(const QString& folder, render::Palette palette);
+  /// What export_formats.h writes: the case as it is now, with its run where that is of what is shown. Throws BadInput.
+  ExportSource exportSource() const;
   /// A film of the last run (retraction_video.h), by a worker; ends with exported.
   void exportVideo(const QString& file, const VideoWish& wish);
 

@@ -3,6 +3,7 @@
 // Running: the case is saved into the work folder, then run from there by what the command line uses for a case too.
 #include "base/error.h"
 #include "pipeline/result_file.h"
+#include "session/export_formats.h"
 #include "session/export_results.h"
 #include "session/session.h"
 
@@ -63,6 +64,19 @@ void Session::exportInto(const QString& folder, render::Palette palette) {
       });
   emit workStarted(tr("Exporting"));
   emit statusChanged();
+}
+
+ExportSource Session::exportSource() const {
+  ExportSource source;
+  source.folder = std::make_shared<const PrivateFolder>();
+  source.record = caseRecord(source.folder->path());
+  source.files = caseFiles(source.folder->path());
+  source.outlines = acceptedCount() > 0;
+  if (result_ && !resultIsStale()) {
+    source.result = result_;
+    source.runFolder = runFolder().toStdString();
+  }
+  return source;
 }
 
 void Session::exportVideo(const QString& file, const VideoWish& wish) {

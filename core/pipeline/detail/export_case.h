@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "dicom/series.h"
@@ -38,6 +39,8 @@ class ExportCase {
   /// A file of that name in the output folder, noted as written.
   std::filesystem::path file(const std::string& name);
   void note(const std::vector<std::filesystem::path>& files);
+  /// Of a format that ended half way: its files, but those noted before it, are removed.
+  void forgetFilesFrom(std::size_t first);
   void warn(const std::string& text);
   void warn(const Diagnostics& said);
   Exported& exported() { return exported_; }
@@ -58,7 +61,7 @@ class ExportCase {
   std::optional<roi::ContourStack> contours_;
   std::optional<image::Mask> liver_, liverOnMre_;
   std::optional<image::Grid> mriGrid_;
-  std::optional<RunResult> result_;
+  std::shared_ptr<const RunResult> result_;
   Exported exported_;
 };
 

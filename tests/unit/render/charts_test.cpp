@@ -98,6 +98,47 @@ TEST(Charts, powerLawIsStraight) {
   EXPECT_NEAR(a.x() / b.x(), std::log(7.0) / std::log(100.0), 1e-2);
 }
 
+TEST(Charts, tellWhichColumnAPixelIsIn) {
+  Histogram chart;
+  chart.values = {0.2, 0.3, 1.6, 1.7, 1.8};
+  const ChartSize size{800, 600};
+  const Picture picture = draw(chart, size);
+  // Whatever is coloured like a bar is in a column, and in the right one: the first bar is left of the second.
+  std::size_t first = 0, second = 0;
+  for (int y = 0; y < size.height; y += 3)
+    for (int x = 0; x < size.width; x += 3) {
+      if (pixel(picture, x, y) != Rgb{86, 150, 205}) continue;
+      const auto column = columnAt(chart, {x + 0.5, y + 0.5}, size);
+      ASSERT_TRUE(column) << x << ", " << y;
+      EXPECT_DOUBLE_EQ(column->high - column->low, 0.5);
+      ++(column->low == 0.0 ? first : second);
+      EXPECT_TRUE(column->low == 0.0 || column->low == 1.5);
+    }
+  EXPECT_GT(first, 100U);
+  EXPECT_GT(second, first);
+  EXPECT_FALSE(columnAt(chart, {2.0, 2.0}, size));
+}
+
+TEST(Charts, tellTheValueAtAHeightOfABox) {
+  BoxPlot chart;
+  chart.boxes = {{"a", {1.0, 2.0, 3.0}}, {"b", {11.0, 12.0, 30.0, 11.5, 12.5}}};
+  const ChartSize size{900, 600};
+  // The outlier is in the second half.
+  bool seen = false;
+  for (double y = 60.0; y < 560.0; y += 1.0) {
+    const auto place = placeAt(chart, {640.0, y}, size);
+    if (!place || place->value > 31.0 || place->value < 29.0) continue;
+    EXPECT_EQ(place->box, 1U);
+    seen = true;
+  }
+  EXPECT_TRUE(seen);
+  const auto low = placeAt(chart, {250.0, 400.0}, size), high = placeAt(chart, {250.0, 200.0}, size);
+  ASSERT_TRUE(low && high);
+  EXPECT_EQ(low->box, 0U);
+  EXPECT_GT(high->value, low->value + 5.0);
+  EXPECT_FALSE(placeAt(chart, {5.0, 300.0}, size));
+}
+
 TEST(Charts, refuseWhatCannotBeDrawn) {
   const Histogram histogram;
   EXPECT_THROW(draw(histogram), BadArgument);
