@@ -64,9 +64,18 @@ int report(const Context& context, const cohort::CohortResult& r, const cohort::
     if (s["measured"].get<int>() > 0)
       text << "stiffness    " << 100.0 * s["fraction_over_1kPa"].get<double>() << " % more than 1 kPa above the atlas, "
            << 100.0 * s["fraction_over_twice"].get<double>() << " % more than twice as stiff\n";
+    const auto in95 = [&](const char* share) {
+      if (!d.contains("how_sure")) return std::string();
+      const Json& i = d["how_sure"][share]["interval95"];
+      std::ostringstream t;
+      t << " (95 %: " << 100.0 * i[0].get<double>() << " to " << 100.0 * i[1].get<double>() << ")";
+      return t.str();
+    };
     if (d["left"].get<int>() > 0)
-      text << "retraction   " << 100.0 * d["fraction_within_voxel"].get<double>() << " % within one voxel on average, "
-           << 100.0 * d["fraction_clinically_significant"].get<double>() << " % at 5 mm or more at the retractor\n";
+      text << "retraction   " << 100.0 * d["fraction_within_voxel"].get<double>() << " %"
+           << in95("fraction_within_voxel") << " within one voxel on average, "
+           << 100.0 * d["fraction_clinically_significant"].get<double>() << " %"
+           << in95("fraction_clinically_significant") << " at 5 mm or more at the retractor\n";
     text << "report       " << (options.output / "report.html").string() << "\n";
   }
   context.print(j, text.str());
@@ -102,6 +111,8 @@ void addCohort(CLI::App& app, Context& context) {
   auto a = std::make_shared<Arguments>();
   verb->add_option("patients", a->patients, "folder with one folder per patient")->type_name(value::folder);
   verb->add_option("--shard", a->shard, "i/n: only every n-th patient, for array jobs; then cohort merge");
+  verb->add_flag("--uncertainty", a->options.uncertainty,
+                 "say how sure every patient is, and give the shares their intervals (four times as long)");
   verb->add_flag("--reports", a->options.reports,
                  "a report of every patient, as HTML and PDF, with its run record (15 s of processor time each)");
   addShared(verb, a);

@@ -15,7 +15,7 @@ struct RenderArguments {
   std::filesystem::path run;
   std::vector<std::string> cameras;
   std::vector<int> slices;
-  std::string palette = "red-blue", size = "1600x1200";
+  std::string palette = "red-blue", size = "1600x1200", language = "en";
   double dpi = 300.0;
 };
 
@@ -41,6 +41,8 @@ void addRender(CLI::App& app, Context& context) {
   verb->add_option("--slice", a->slices, "slice of the image, from 0; may be given several times");
   verb->add_option("--palette", a->palette, "colours")->check(CLI::IsMember({"red-blue", "colour-blind"}));
   verb->add_option("--size", a->size, "width x height of 3-D pictures in pixels; slices grow with the width");
+  verb->add_option("--language", a->language, "of the pictures of how sure the answer is: en or de")
+      ->check(CLI::IsMember({"en", "de"}));
   verb->add_option("--dpi", a->dpi, "resolution written into the pictures")->check(CLI::Range(1.0, 10000.0));
   verb->callback([&context, a] {
     context.action = [&context, a] {
@@ -49,6 +51,7 @@ void addRender(CLI::App& app, Context& context) {
                                                                 : render::RenderBackend::Auto);
       pipeline::PictureOptions o;
       o.palette = a->palette == "colour-blind" ? render::Palette::ColourBlind : render::Palette::RedBlue;
+      o.language = languageNamed(a->language);
       o.slices = a->slices;
       for (const std::string& camera : a->cameras) o.cameras.push_back(pipeline::cameraFromText(camera));
       readSize(a->size, o);
@@ -71,8 +74,11 @@ void addRender(CLI::App& app, Context& context) {
       if (o.cameras.empty() || !o.slices.empty()) files = pipeline::drawSlices(data, o, folder);
       if (o.slices.empty() && o.cameras.empty())
         for (const auto& f : pipeline::drawCharts(data, o, folder)) files.push_back(f);
+      if (o.cameras.empty() || !o.slices.empty())
+        for (const auto& f : pipeline::drawHowSure(data, o, folder)) files.push_back(f);
       if (o.slices.empty() || !o.cameras.empty())
-        for (const auto& f : pipeline::draw3D(data, o, folder)) files.push_back(f);
+        for (const auto draw : {pipeline::draw3D, pipeline::drawHowSure3D})
+          for (const auto& f : draw(data, o, folder)) files.push_back(f);
       Json j;
       j["files"] = Json::array();
       std::ostringstream text;

@@ -15,7 +15,18 @@
 namespace glisson::cli {
 namespace {
 
-std::string summary(const pipeline::RunResult& r) {
+/// " (95 %: 4.1 to 10.2)" beside a figure of the difference, in its unit; nothing where the run does not say.
+std::string in95(const pipeline::RunResult& r, uncertainty::Interval uncertainty::Headline::*figure) {
+  if (!r.uncertainty || !r.uncertainty->known || !r.uncertainty->spread.headline) return "";
+  const uncertainty::Interval& i = (*r.uncertainty->spread.headline).*figure;
+  std::ostringstream t;
+  t.precision(3);
+  t << " (95 %: " << i.low << " to " << i.high << ")";
+  return t.str();
+}
+
+std::string summary(const pipeline::RunResult& r, Language language) {
+  using uncertainty::Headline;
   std::ostringstream t;
   t.precision(4);
   const retraction::Result& p = r.primary;
@@ -39,12 +50,29 @@ std::string summary(const pipeline::RunResult& r) {
   for (const std::string& v : p.validity) t << "validity    " << v << "\n";
   if (r.discretisation) t << "error       " << r.discretisation->note << "\n";
   if (r.difference)
-    t << "difference  mean " << r.difference->mean_mm << " mm, 95 % below " << r.difference->p95_mm << " mm, max "
-      << r.difference->max_mm << " mm, at the retractor " << r.difference->at_retractor_mm << " mm"
+    t << "difference  mean " << r.difference->mean_mm << " mm" << in95(r, &Headline::mean_mm) << ", 95 % below "
+      << r.difference->p95_mm << " mm, max " << r.difference->max_mm << " mm, at the retractor "
+      << r.difference->at_retractor_mm << " mm" << in95(r, &Headline::at_retractor_mm)
       << (r.difference->clinically_significant ? " (clinically significant)" : "") << "\n";
   if (r.difference && r.difference->travel_mm)
-    t << "            travel of the bar " << *r.difference->travel_mm << " mm (measured less atlas)\n";
-  if (r.uncertainty && r.uncertainty->known) t << "how sure    " << uncertainty::inWords(r.uncertainty->spread) << "\n";
+    t << "            travel of the bar " << *r.difference->travel_mm << " mm" << in95(r, &Headline::travel_mm)
+      << " (measured less atlas)\n";
+  if (r.difference && !r.difference->vessel_mm.empty()) {
+    const bool sure = r.uncertainty && r.uncertainty->known && r.uncertainty->spread.headline->vessels;
+    t << "            vessels " << r.difference->vesselMax_mm << " mm at most, "
+      << 100 * r.difference->vesselFractionBeyond << " % of the landmarks 5 mm or more apart";
+    if (sure) {
+      const uncertainty::VesselHeadline& v = *r.uncertainty->spread.headline->vessels;
+      t << " (95 %: " << v.max_mm.low << " to " << v.max_mm.high << " mm, " << 100 * v.beyond.low << " to "
+        << 100 * v.beyond.high << " %)";
+    }
+    t << "\n";
+  }
+  if (r.uncertainty && r.uncertainty->known) {
+    t << "how sure    " << uncertainty::inWords(r.uncertainty->spread) << "\n";
+    const std::string told = uncertainty::forSurgeon(r.uncertainty->tip, r.uncertainty->spread, language);
+    if (!told.empty()) t << (language == Language::English ? "in short    " : "kurz        ") << told << "\n";
+  }
   for (const std::string& d : r.diagnostics.texts()) t << "diagnosis   " << d << "\n";
   for (const std::string& w : r.warnings) t << "warning     " << w << "\n";
   for (const auto& f : r.files) t << "written     " << f.string() << "\n";
@@ -101,7 +129,7 @@ std::string introduction(const pipeline::RunResult& r, const std::filesystem::pa
 int runScene(const pipeline::Scene& scene, const pipeline::RunOptions& options, const Context& context,
              const Progress& progress, const std::function<std::string(const pipeline::RunResult&)>& before = {}) {
   const pipeline::RunResult r = pipeline::run(scene, options, progress);
-  context.print(Json::parse(r.json), (before ? before(r) : std::string()) + summary(r));
+  context.print(Json::parse(r.json), (before ? before(r) : std::string()) + summary(r, options.language));
   refuseIfStrict(context, r.diagnostics, r.warnings);
   if (r.primary.solver.converged() && (!r.atlas || r.atlas->solver.converged())) return Ok;
   std::cerr << "glisson-cli: " << whyOf(r) << "; the result is marked and not drawn" << adviceFor(scene, r)
@@ -124,9 +152,12 @@ void addRun(CLI::App& app, Context& context) {
   auto howSure = std::make_shared<bool>(false);
   verb->add_flag("--uncertainty", *howSure,
                  "say how sure the answer is, and what drives it (as \"uncertainty\": true)");
+  auto language = std::make_shared<std::string>("en");
+  verb->add_option("--language", *language, "of the sentence and the pictures of how sure the answer is: en or de")
+      ->check(CLI::IsMember({"en", "de"}));
   addSlicerXml(*verb, {"Retract the liver", {PathKind::Folder}});
-  verb->callback([&context, scenePath, colourBlind, overrideChecks, howSure] {
-    context.action = [&context, scenePath, colourBlind, overrideChecks, howSure] {
+  verb->callback([&context, scenePath, colourBlind, overrideChecks, howSure, language] {
+    context.action = [&context, scenePath, colourBlind, overrideChecks, howSure, language] {
       pipeline::Scene scene = pipeline::readScene(*scenePath);
       scene.geometry.overrideChecks = scene.geometry.overrideChecks || *overrideChecks;
       if (*howSure && !scene.uncertainty) scene.uncertainty.emplace();
@@ -136,6 +167,7 @@ void addRun(CLI::App& app, Context& context) {
       const auto here = std::filesystem::is_directory(*scenePath) ? *scenePath : scenePath->parent_path();
       options.output = context.output.empty() ? here / "glisson-run" : context.output;
       options.palette = *colourBlind ? render::Palette::ColourBlind : render::Palette::RedBlue;
+      options.language = languageNamed(*language);
       return runScene(scene, options, context, context.progress());
     };
   });

@@ -38,7 +38,7 @@ Path programOr(const std::optional<Path>& given) {
 
 std::shared_ptr<CohortResult> runCohort(const Path& patients, const Path& output, const std::optional<Path>& scene,
                                         int jobs, const std::pair<int, int>& shard, bool asPublished, bool reports,
-                                        bool sensitivity, const std::optional<Path>& program,
+                                        bool sensitivity, bool howSure, const std::optional<Path>& program,
                                         const py::object& progress, const std::shared_ptr<Cancel>& cancel) {
   CohortOptions options;
   options.output = output;
@@ -49,6 +49,7 @@ std::shared_ptr<CohortResult> runCohort(const Path& patients, const Path& output
   options.shards = shard.second;
   options.asPublished = asPublished;
   options.reports = reports;
+  options.uncertainty = howSure;
   options.sensitivity = sensitivity;
   return awaited({progress, cancel}, [&](const Progress& p) {
     return std::make_shared<CohortResult>(cohort::runCohort(patients, options, p));
@@ -125,8 +126,8 @@ void bindCohort(py::module_& m) {
       "glisson-cli, which cohort() runs.");
   m.def("cohort", &runCohort, py::arg("patients"), py::arg("output"), py::kw_only(), py::arg("scene") = py::none(),
         py::arg("jobs") = 0, py::arg("shard") = std::pair(1, 1), py::arg("as_published") = false,
-        py::arg("reports") = false, py::arg("sensitivity") = true, py::arg("program") = py::none(),
-        py::arg("progress") = py::none(), py::arg("cancel") = py::none(),
+        py::arg("reports") = false, py::arg("sensitivity") = true, py::arg("uncertainty") = false,
+        py::arg("program") = py::none(), py::arg("progress") = py::none(), py::arg("cancel") = py::none(),
         "The paper's studies over a folder with one folder per patient; those of `glisson-cli cohort`, which goes on "
         "where it was "
         "stopped.\n\n"
@@ -134,8 +135,8 @@ void bindCohort(py::module_& m) {
         "time, 0 what "
         "cores and memory allow. shard: (i, n) takes only every n-th patient, for merge_cohort. as_published: "
         "histogram of Young's "
-        "moduli. reports: a report of every patient. sensitivity: the chosen four under other assumptions. program: "
-        "glisson-cli, "
+        "moduli. reports: a report of every patient. sensitivity: the chosen four under other assumptions. "
+        "uncertainty: say how sure every patient is, and give the shares their intervals. program: glisson-cli, "
         "which runs each patient in a process of its own; None: the one that belongs to this module.\n\n"
         "Patients that are left out raise nothing: see Cohort.cases. Raises BadInput, Cancelled.");
   m.def(

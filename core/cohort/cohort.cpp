@@ -29,7 +29,15 @@ struct Patient {
   std::string key;
 };
 
-Patient prepare(const PatientFolder& place, const std::optional<std::string>& sceneTemplate, bool reports) {
+/// The scene, asked how sure its answer is.
+std::string withUncertainty(const std::string& scene) {
+  Json j = Json::parse(scene);
+  if (!j.contains("uncertainty")) j["uncertainty"] = true;
+  return j.dump(2);
+}
+
+Patient prepare(const PatientFolder& place, const std::optional<std::string>& sceneTemplate,
+                const CohortOptions& options) {
   Patient p;
   p.place = place;
   std::string all;
@@ -37,6 +45,7 @@ Patient prepare(const PatientFolder& place, const std::optional<std::string>& sc
     all = digestOfFolder(place.folder);
     p.files = findFiles(place.folder);
     p.scene = sceneOf(place.folder, sceneTemplate);
+    if (options.uncertainty) p.scene = withUncertainty(p.scene);
     if (!fs::is_regular_file(place.folder / "scene.json") && dicom::scan(place.folder).series.empty())
       throw BadInput(
           "no DICOM image was found; images in other formats need a scene.json in the patient's folder that names the "
@@ -47,7 +56,7 @@ Patient prepare(const PatientFolder& place, const std::optional<std::string>& sc
   }
   all += (p.scene.empty() ? "" : withoutPaths(p.scene)) + (sceneTemplate ? *sceneTemplate : "") + version();
   // A report compares vessels, whose numbers are then in the record: one cohort holds records of one kind.
-  if (reports) all += "reports";
+  if (options.reports) all += "reports";
   p.key = sha256(all.data(), all.size());
   return p;
 }
@@ -259,7 +268,7 @@ CohortResult runCohort(const fs::path& folder, const CohortOptions& options, con
   for (const PatientFolder& place : all) {
     if ((place.number - 1) % options.shards != options.shard - 1) continue;
     progress.report(0.05 * place.number / static_cast<double>(all.size()), "reading " + place.id);
-    patients.push_back(prepare(place, sceneTemplate, options.reports));
+    patients.push_back(prepare(place, sceneTemplate, options));
   }
   CohortResult result;
   const bool whole = options.shards == 1;

@@ -21,6 +21,7 @@ struct CohortOptions {
   int jobs = 0;                                ///< patients at a time; 0 = as many as cores and memory allow
   int shard = 1, shards = 1;  ///< only patients number n with n ≡ shard (mod shards); no summary where shards > 1
   bool asPublished = false;   ///< histogram of Young's moduli against 2.1 kPa, as the paper draws it
+  bool uncertainty = false;   ///< says of every patient how sure it is, which intervals on the shares come from
   bool reports = false;       ///< a report of every patient, beside its numbers: 15 s of processor time each
   bool sensitivity = true;    ///< runs the chosen four again under the assumptions that the paper leaves open
 };

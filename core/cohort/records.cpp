@@ -36,6 +36,16 @@ double numberAt(const Json& j, std::initializer_list<const char*> keys) {
   return at->is_number() ? at->get<double>() : none;
 }
 
+void readHowSure(const Json& run, CaseRecord& r) {
+  r.probability_beyond_5mm = numberAt(run, {"difference", "probability_beyond_5mm"});
+  r.probability_travel_beyond_5mm = numberAt(run, {"difference", "probability_travel_beyond_5mm"});
+  r.probability_within_voxel = numberAt(run, {"difference", "probability_mean_within_voxel"});
+  const Json::json_pointer interval("/difference/interval95/at_retractor_mm");
+  if (!run.contains(interval)) return;
+  r.at_retractor_low_mm = run[interval].at(0).get<double>();
+  r.at_retractor_high_mm = run[interval].at(1).get<double>();
+}
+
 template <typename Visit>
 void eachNumber(CaseRecord& r, Visit&& visit) {
   visit("shear_kPa", r.shear_kPa);
@@ -53,6 +63,11 @@ void eachNumber(CaseRecord& r, Visit&& visit) {
   visit("pose_height_mm", r.pose_height_mm);
   visit("discretisation_mm", r.discretisation_mm);
   visit("difference_error_mm", r.difference_error_mm);
+  visit("at_retractor_low_mm", r.at_retractor_low_mm);
+  visit("at_retractor_high_mm", r.at_retractor_high_mm);
+  visit("probability_beyond_5mm", r.probability_beyond_5mm);
+  visit("probability_travel_beyond_5mm", r.probability_travel_beyond_5mm);
+  visit("probability_within_voxel", r.probability_within_voxel);
   visit("volume_mL", r.volume_mL);
   visit("p95_strain", r.p95_strain);
   visit("rotation_deg", r.rotation_deg);
@@ -90,6 +105,7 @@ CaseRecord recordOf(const std::string& id, const std::string& key, const std::st
   r.pose_height_mm = numberAt(j, {"pose", "height_mm"});
   r.discretisation_mm = numberAt(j, {"discretisation_error", "max_mm"});
   r.difference_error_mm = numberAt(j, {"discretisation_error", "difference", "at_retractor_mm"});
+  readHowSure(j, r);
   r.volume_mL = numberAt(j, {"model", "volume_mL"});
   r.p95_strain = numberAt(j, {"p95_strain"});
   r.rotation_deg = numberAt(j, {"max_rotation_deg"});

@@ -25,6 +25,10 @@ struct CaseRecord {
   double pose_height_mm = 0.0;                    ///< of the bar above the lowest point of the right lobe
   double discretisation_mm = 0.0;                 ///< of a displacement, at its worst cell
   double difference_error_mm = 0.0;               ///< discretisation error of at_retractor_mm
+  /// Of a run that says how sure it is: 95 % interval of at_retractor_mm; probabilities that it is 5 mm or more, that
+  /// the travel differs by as much, and that mean_mm is at most one voxel of the MRI.
+  double at_retractor_low_mm = 0.0, at_retractor_high_mm = 0.0;
+  double probability_beyond_5mm = 0.0, probability_travel_beyond_5mm = 0.0, probability_within_voxel = 0.0;
   double volume_mL = 0.0, p95_strain = 0.0, rotation_deg = 0.0;
   long long dofs = 0;
   bool linear_valid = false;

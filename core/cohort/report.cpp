@@ -86,6 +86,13 @@ std::string wordOf(CaseOutcome::Status status) {
   return status == CaseOutcome::Status::Rejected ? "rejected" : "failed";
 }
 
+/// 95 % of the difference at the retractor and the probability of 5 mm, where the run says how sure it is.
+std::string intervalOf(const CaseRecord& r) {
+  if (!std::isfinite(r.probability_beyond_5mm)) return "";
+  return " (" + number(r.at_retractor_low_mm, 3) + " to " + number(r.at_retractor_high_mm, 3) + "; " +
+         number(100.0 * r.probability_beyond_5mm, 2) + " %)";
+}
+
 /// The report of a cohort, section by section; its figures are written on the way.
 class SummaryPage {
  public:
@@ -158,17 +165,19 @@ void SummaryPage::retraction() {
     return;
   }
   chart(box("Mean over the whole liver", b.mean_mm, {defaults::mriVoxel.mm(), "one MRI voxel, 1.64 mm", magenta},
-            percent(b.fractionWithinVoxel) + " of the patients within one voxel."),
+            percent(b.fractionWithinVoxel) + in95(b.sureWithinVoxel) + " of the patients within one voxel."),
         "difference-mean", "Mean displacement difference over the liver: " + inWords(b.mean, "mm") + ".");
   chart(box("At the retractor", b.at_retractor_mm, significant,
-            percent(b.fractionSignificant) + " of the patients at 5 mm or more."),
+            percent(b.fractionSignificant) + in95(b.sureSignificant) + " of the patients at 5 mm or more."),
         "difference-retractor", "Displacement difference at the retractor: " + inWords(b.atRetractor, "mm") + ".");
   if (b.travel.n > 0)
-    chart(box("Travel of the bar", b.travel_mm, significant,
-              percent(b.fractionTravelSignificant) + " of the patients at 5 mm or more."),
-          "difference-travel",
-          "How far the bar goes with measured and with atlas stiffness, amount of the difference: " +
-              inWords(b.travel, "mm") + ".");
+    chart(
+        box("Travel of the bar", b.travel_mm, significant,
+            percent(b.fractionTravelSignificant) + in95(b.sureTravelSignificant) + " of the patients at 5 mm or more."),
+        "difference-travel",
+        "How far the bar goes with measured and with atlas stiffness, amount of the difference: " +
+            inWords(b.travel, "mm") + ".");
+  howSure(page_, s_);
   reservations(page_, s_);
 }
 
@@ -220,17 +229,19 @@ void SummaryPage::everyPatient() {
   std::vector<std::vector<std::string>> rows;
   for (const CaseRecord& r : s_.records)
     rows.push_back({r.outcome.id, orDash(r.shear_kPa), orDash(r.youngs_kPa), orDash(r.volume_mL, 4), orDash(r.mean_mm),
-                    orDash(r.at_retractor_mm), orDash(r.difference_error_mm, 2), orDash(r.discretisation_mm, 2),
-                    orDash(r.p95_strain, 2), orDash(r.travel_mm), orDash(r.atlas_travel_mm),
-                    r.kinematics.empty() ? "–" : r.kinematics,
+                    orDash(r.at_retractor_mm) + intervalOf(r), orDash(r.difference_error_mm, 2),
+                    orDash(r.discretisation_mm, 2), orDash(r.p95_strain, 2), orDash(r.travel_mm),
+                    orDash(r.atlas_travel_mm), r.kinematics.empty() ? "–" : r.kinematics,
                     r.outcome.status != CaseOutcome::Status::Done ? "–"
                     : r.kinematics_valid                          ? "valid"
                                                                   : "beyond its range"});
   page_.heading("Every patient");
-  page_.table({"Patient", "µ, kPa", "E = 3µ, kPa", "Volume, mL", "Mean difference, mm", "At the retractor, mm",
-               "Its discretisation error, mm", "That of the worst place, mm", "Strain (95 %)", "Travel of the bar, mm",
-               "With atlas, mm", "Kinematics", "Theory"},
-              rows);
+  page_.table(
+      {"Patient", "µ, kPa", "E = 3µ, kPa", "Volume, mL", "Mean difference, mm",
+       s_.retraction.sureSignificant ? "At the retractor, mm (95 %; probability of 5 mm)" : "At the retractor, mm",
+       "Its discretisation error, mm", "That of the worst place, mm", "Strain (95 %)", "Travel of the bar, mm",
+       "With atlas, mm", "Kinematics", "Theory"},
+      rows);
 }
 
 }  // namespace

@@ -22,6 +22,10 @@ std::string percent(double fraction) {
   return number(100.0 * fraction, 3) + " %";
 }
 
+std::string in95(const std::optional<SureShare>& share) {
+  return share ? " (95 %: " + percent(share->low) + " to " + percent(share->high) + ")" : std::string();
+}
+
 std::string quantityOf(const StiffnessStudy& s) {
   return s.asPublished ? "Young's modulus E = 3µ (as published)" : "shear modulus µ";
 }
@@ -68,13 +72,14 @@ void inShort(report::Page& page, const Summary& s) {
                     number(s.stiffness.atlas_kPa) + " kPa, " + percent(s.stiffness.fractionOverTwice) +
                     " are more than twice as stiff.");
   if (s.retraction.left > 0)
-    items.push_back("Retraction, measured against atlas stiffness: " + percent(s.retraction.fractionWithinVoxel) +
-                    " of " + patients(s.retraction.left) +
-                    " agree within one MRI voxel on average over the liver; at the retractor " +
-                    percent(s.retraction.fractionSignificant) + " differ by 5 mm or more" +
-                    (s.retraction.travel.n > 0
-                         ? ", in the travel of the bar " + percent(s.retraction.fractionTravelSignificant) + "."
-                         : "."));
+    items.push_back(
+        "Retraction, measured against atlas stiffness: " + percent(s.retraction.fractionWithinVoxel) +
+        in95(s.retraction.sureWithinVoxel) + " of " + patients(s.retraction.left) +
+        " agree within one MRI voxel on average over the liver; at the retractor " +
+        percent(s.retraction.fractionSignificant) + in95(s.retraction.sureSignificant) + " differ by 5 mm or more" +
+        (s.retraction.travel.n > 0 ? ", in the travel of the bar " + percent(s.retraction.fractionTravelSignificant) +
+                                         in95(s.retraction.sureTravelSignificant) + "."
+                                   : "."));
   std::string changing;
   std::vector<std::string> seen;
   for (const SensitivityRow& r : s.sensitivity) {
@@ -115,6 +120,26 @@ void methods(report::Page& page, const Summary& s) {
     flatten(Json::parse(s.sceneParameters), "", rows);
     page.table(rows);
   }
+}
+
+void howSure(report::Page& page, const Summary& s) {
+  const RetractionStudy& b = s.retraction;
+  if (!b.sureSignificant) return;
+  std::vector<std::vector<std::string>> rows;
+  const auto row = [&](const char* what, double counted, const std::optional<SureShare>& share) {
+    if (share)
+      rows.push_back(
+          {what, percent(counted), percent(share->expected), percent(share->low) + " to " + percent(share->high)});
+  };
+  row("Within one voxel, mean over the liver", b.fractionWithinVoxel, b.sureWithinVoxel);
+  row("5 mm or more at the retractor", b.fractionSignificant, b.sureSignificant);
+  if (b.travel.n > 0)
+    row("5 mm or more in the travel of the bar", b.fractionTravelSignificant, b.sureTravelSignificant);
+  page.table({"Share of the patients", "counted", "sum of their probabilities", "95 %"}, rows);
+  page.paragraph(
+      "Intervals come from the probability of each of the " + patients(b.sureSignificant->n) +
+      " whose run says how sure it is, the patients as independent of each other: they are about the patients "
+      "of this cohort, not about all livers.");
 }
 
 void reservations(report::Page& page, const Summary& s) {

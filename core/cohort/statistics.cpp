@@ -48,16 +48,45 @@ StiffnessStudy stiffnessStudy(const std::vector<CaseRecord>& records, bool asPub
   return s;
 }
 
+std::optional<SureShare> sureShareOf(const std::vector<double>& probabilities) {
+  SureShare s;
+  std::vector<double> ofCount = {1.0};  // probability that so many of the patients seen are in
+  for (const double p : probabilities) {
+    if (!std::isfinite(p)) continue;
+    ++s.n;
+    s.expected += p;
+    ofCount.push_back(0.0);
+    for (std::size_t k = ofCount.size(); k-- > 0;)
+      ofCount[k] = (1.0 - p) * ofCount[k] + (k > 0 ? p * ofCount[k - 1] : 0.0);
+  }
+  if (s.n == 0) return {};
+  const auto n = static_cast<double>(s.n);
+  const auto quantile = [&](double share) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < ofCount.size(); ++k)
+      if ((sum += ofCount[k]) >= share) return static_cast<double>(k) / n;
+    return 1.0;
+  };
+  s.expected /= n;
+  s.low = quantile(0.025);
+  s.high = quantile(0.975);
+  return s;
+}
+
 RetractionStudy retractionStudy(const std::vector<CaseRecord>& records) {
   RetractionStudy s;
   s.tried = records.size();
   std::size_t within = 0, significant = 0, travelled = 0;
+  std::vector<double> pWithin, pSignificant, pTravelled;
   for (const CaseRecord& r : records) {
     if (r.outcome.status == CaseOutcome::Status::Rejected) ++s.rejected;
     if (r.outcome.status == CaseOutcome::Status::Failed) ++s.failed;
     if (r.outcome.status != CaseOutcome::Status::Done || !std::isfinite(r.mean_mm)) continue;
     s.mean_mm.push_back(r.mean_mm);
     s.at_retractor_mm.push_back(r.at_retractor_mm);
+    pWithin.push_back(r.probability_within_voxel);
+    pSignificant.push_back(r.probability_beyond_5mm);
+    pTravelled.push_back(r.probability_travel_beyond_5mm);
     if (r.mean_mm <= defaults::mriVoxel.mm()) ++within;
     if (r.at_retractor_mm >= defaults::clinicallySignificant.mm()) ++significant;
     if (!std::isfinite(r.travel_difference_mm)) continue;
@@ -65,6 +94,9 @@ RetractionStudy retractionStudy(const std::vector<CaseRecord>& records) {
     if (s.travel_mm.back() >= defaults::clinicallySignificant.mm()) ++travelled;
   }
   s.left = s.mean_mm.size();
+  s.sureWithinVoxel = sureShareOf(pWithin);
+  s.sureSignificant = sureShareOf(pSignificant);
+  s.sureTravelSignificant = sureShareOf(pTravelled);
   s.mean = spreadOf(s.mean_mm);
   s.atRetractor = spreadOf(s.at_retractor_mm);
   s.travel = spreadOf(s.travel_mm);

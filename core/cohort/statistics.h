@@ -27,6 +27,15 @@ struct StiffnessStudy {
 };
 StiffnessStudy stiffnessStudy(const std::vector<CaseRecord>& records, bool asPublished);
 
+/// A share of the patients, from the probability of each: the patients as independent, their 95 % interval from the
+/// exact distribution of the count. It is about these patients, not about all that could have been taken.
+struct SureShare {
+  std::size_t n = 0;  ///< patients whose run says how sure it is
+  double expected = 0.0, low = 0.0, high = 0.0;
+};
+/// Nothing where no probability is finite.
+std::optional<SureShare> sureShareOf(const std::vector<double>& probabilities);
+
 /// Study 2: where the two retractions place the liver.
 struct RetractionStudy {
   std::size_t tried = 0, rejected = 0, failed = 0, left = 0;
@@ -36,6 +45,8 @@ struct RetractionStudy {
   double fractionWithinVoxel = 0.0;        ///< mean difference at most 1.64 mm
   double fractionSignificant = 0.0;        ///< at the retractor at least 5 mm
   double fractionTravelSignificant = 0.0;  ///< the bar's travel differs by at least 5 mm
+  /// The same three shares of the patients that say how sure they are.
+  std::optional<SureShare> sureWithinVoxel, sureSignificant, sureTravelSignificant;
 };
 RetractionStudy retractionStudy(const std::vector<CaseRecord>& records);
 

@@ -39,6 +39,18 @@ Json stiffnessJson(const StiffnessStudy& a) {
           {"fraction_over_twice", a.fractionOverTwice}};
 }
 
+/// Shares with their intervals, where runs say how sure they are.
+void addHowSure(const RetractionStudy& b, Json& j) {
+  const auto add = [&](const char* name, const std::optional<SureShare>& s) {
+    if (!s) return;
+    j["how_sure"]["patients"] = s->n;
+    j["how_sure"][name] = {{"expected", s->expected}, {"interval95", {s->low, s->high}}};
+  };
+  add("fraction_within_voxel", b.sureWithinVoxel);
+  add("fraction_clinically_significant", b.sureSignificant);
+  add("fraction_travel_clinically_significant", b.sureTravelSignificant);
+}
+
 Json retractionJson(const RetractionStudy& b) {
   Json j = {{"tried", b.tried},
             {"rejected", b.rejected},
@@ -54,6 +66,7 @@ Json retractionJson(const RetractionStudy& b) {
     j["travel_difference_mm"] = toJson(b.travel);
     j["fraction_travel_clinically_significant"] = b.fractionTravelSignificant;
   }
+  addHowSure(b, j);
   return j;
 }
 
@@ -62,34 +75,41 @@ const char* wordOf(CaseOutcome::Status status) {
   return words[static_cast<std::size_t>(status)];
 }
 
+constexpr std::array patientColumns = {"case",
+                                       "status",
+                                       "shear_kPa",
+                                       "youngs_kPa",
+                                       "sd_kPa",
+                                       "voxels",
+                                       "volume_mL",
+                                       "mean_mm",
+                                       "p95_mm",
+                                       "max_mm",
+                                       "at_retractor_mm",
+                                       "vessel_mean_mm",
+                                       "vessel_beyond_5mm",
+                                       "discretisation_mm",
+                                       "difference_error_mm",
+                                       "p95_strain",
+                                       "rotation_deg",
+                                       "linear_valid",
+                                       "dofs",
+                                       "travel_mm",
+                                       "atlas_travel_mm",
+                                       "travel_difference_mm",
+                                       "pose_height_mm",
+                                       "kinematics",
+                                       "kinematics_valid",
+                                       "at_retractor_low_mm",
+                                       "at_retractor_high_mm",
+                                       "probability_beyond_5mm",
+                                       "probability_travel_beyond_5mm",
+                                       "probability_within_voxel"};
+
 }  // namespace
 
 std::string patientsCsv(const Summary& s) {
-  report::Csv csv({"case",
-                   "status",
-                   "shear_kPa",
-                   "youngs_kPa",
-                   "sd_kPa",
-                   "voxels",
-                   "volume_mL",
-                   "mean_mm",
-                   "p95_mm",
-                   "max_mm",
-                   "at_retractor_mm",
-                   "vessel_mean_mm",
-                   "vessel_beyond_5mm",
-                   "discretisation_mm",
-                   "difference_error_mm",
-                   "p95_strain",
-                   "rotation_deg",
-                   "linear_valid",
-                   "dofs",
-                   "travel_mm",
-                   "atlas_travel_mm",
-                   "travel_difference_mm",
-                   "pose_height_mm",
-                   "kinematics",
-                   "kinematics_valid"});
+  report::Csv csv({patientColumns.begin(), patientColumns.end()});
   const auto cell = [](double v) { return std::isfinite(v) ? number(v, 10) : std::string(); };
   for (const CaseRecord& r : s.records) {
     csv.row({r.outcome.id,
@@ -116,7 +136,12 @@ std::string patientsCsv(const Summary& s) {
              cell(r.travel_difference_mm),
              cell(r.pose_height_mm),
              r.kinematics,
-             r.kinematics_valid ? "yes" : "no"});
+             r.kinematics_valid ? "yes" : "no",
+             cell(r.at_retractor_low_mm),
+             cell(r.at_retractor_high_mm),
+             cell(r.probability_beyond_5mm),
+             cell(r.probability_travel_beyond_5mm),
+             cell(r.probability_within_voxel)});
   }
   return csv.text();
 }

@@ -78,6 +78,7 @@ render::RetractionScene retractionScene(const Scene& scene, const Inputs& inputs
   p.vesselSurface = vessels.surface;
   p.retractorPoint_lps_mm = r.primary.retractorPoint_mm;
   p.bar = drawnBar(r, p.liverSurface);
+  p.sure = howSureOf(r, vessels);
   for (const retraction::LoadSpec& load : scene.setup.loads)
     if (const auto* bar = std::get_if<retraction::Retractor>(&load)) {
       p.retractorAxis = r.placed ? *r.placed->bar.axis : bar->patchAxis();
@@ -163,7 +164,7 @@ void Writer::stiffness(const elastography::Measurement& m) {
 }
 
 PictureData Writer::pictureData(const RunResult& r) const {
-  PictureData data{*r.picture, {}};
+  PictureData data{*r.picture, {}, sureNumbersOf(r)};
   if (const std::optional<Eigen::Vector3d> vessel = mostMisplacedVessel(r)) {
     // Shown where it ends up, between the two predictions.
     const Eigen::Vector3d ua = retraction::displacementAt(r.model, r.primary, {*vessel}).front();
@@ -187,6 +188,15 @@ void Writer::charts(const PictureData& data) {
 
 void Writer::overlays3D(const PictureData& data, render::Palette palette) {
   for (const auto& file : draw3D(data, {.palette = palette}, folder_)) files_.push_back(file);
+}
+
+void Writer::howSure(const PictureData& data, Language language) {
+  for (const auto& file : drawHowSure(data, {.language = language}, folder_)) files_.push_back(file);
+}
+
+void Writer::howSure3D(const PictureData& data, render::Palette palette, Language language) {
+  for (const auto& file : drawHowSure3D(data, {.palette = palette, .language = language}, folder_))
+    files_.push_back(file);
 }
 
 }  // namespace glisson::pipeline::detail

@@ -178,6 +178,88 @@ render::RigidBar barOf(const Json& j, Body& body) {
   return bar;
 }
 
+void put(const render::HowSure& sure, Body& body) {
+  body.put(sure.beyond);
+  body.put(sure.tube);
+  body.putAll(sure.vessel95_mm);
+}
+
+Json toJson(const render::HowSure& sure) {
+  Json j = {{"tube", sizesOf(sure.tube)}, {"vessels", sure.vessel95_mm.size()}};
+  if (!sure.beyond.values.empty()) j["beyond"] = toJson(sure.beyond.grid);
+  return j;
+}
+
+render::HowSure howSureOf(const Json& j, Eigen::Index vertices, Body& body) {
+  render::HowSure sure;
+  if (j.contains("beyond")) sure.beyond = body.volume<float>(gridOf(j["beyond"]));
+  sure.tube = body.mesh(j.at("tube"));
+  const auto vessels = j.at("vessels").get<Eigen::Index>();
+  if (vessels != 0 && vessels != vertices) throw BadInput("its vessels have another number of vertices");
+  sure.vessel95_mm.resize(vessels);
+  body.takeAll(sure.vessel95_mm);
+  return sure;
+}
+
+Json toJson(const uncertainty::Interval& i) {
+  return {i.low, i.high};
+}
+
+uncertainty::Interval intervalOf(const Json& j) {
+  return {j.at(0).get<double>(), j.at(1).get<double>()};
+}
+
+Json toJson(const SureNumbers& n) {
+  Json j = {{"at_retractor_mm", n.at_retractor_mm}, {"vessels", n.vessels}, {"sources", Json::array()}};
+  for (const uncertainty::SourceSpread& s : n.sources)
+    j["sources"].push_back(
+        {static_cast<int>(s.kind), s.sd_mm, s.mean_sd_mm, s.travel_sd_mm, s.vessels_sd_mm, s.furthest_sd_mm});
+  if (!n.headline) return j;
+  const uncertainty::Headline& h = *n.headline;
+  Json& k = j["headline"] = {{"mean_mm", toJson(h.mean_mm)},
+                             {"at_retractor_mm", toJson(h.at_retractor_mm)},
+                             {"travel_mm", toJson(h.travel_mm)},
+                             {"beyond", {h.beyond, h.travelBeyond, h.withinVoxel}}};
+  if (!h.vessels) return j;
+  const uncertainty::VesselHeadline& v = *h.vessels;
+  k["vessels"] = {{"mean_mm", toJson(v.mean_mm)},       {"max_mm", toJson(v.max_mm)},
+                  {"beyond", toJson(v.beyond)},         {"furthest", v.furthest},
+                  {"furthest_mm", v.furthest_mm},       {"furthest95_mm", toJson(v.furthest95_mm)},
+                  {"furthest_beyond", v.furthestBeyond}};
+  return j;
+}
+
+SureNumbers sureNumbersOf(const Json& j) {
+  SureNumbers n;
+  n.at_retractor_mm = j.at("at_retractor_mm").get<double>();
+  n.vessels = j.at("vessels").get<bool>();
+  for (const Json& s : j.at("sources")) {
+    const int kind = s.at(0).get<int>();
+    if (kind < 0 || kind > static_cast<int>(uncertainty::SourceKind::BeyondFirstOrder))
+      throw BadInput("it names a source of uncertainty that is not known");
+    n.sources.push_back({static_cast<uncertainty::SourceKind>(kind), s.at(1).get<double>(), s.at(2).get<double>(),
+                         s.at(3).get<double>(), s.at(4).get<double>(), s.at(5).get<double>()});
+  }
+  if (!j.contains("headline")) return n;
+  const Json& k = j["headline"];
+  uncertainty::Headline& h = n.headline.emplace();
+  h.mean_mm = intervalOf(k.at("mean_mm"));
+  h.at_retractor_mm = intervalOf(k.at("at_retractor_mm"));
+  h.travel_mm = intervalOf(k.at("travel_mm"));
+  h.beyond = k.at("beyond").at(0).get<double>();
+  h.travelBeyond = k.at("beyond").at(1).get<double>();
+  h.withinVoxel = k.at("beyond").at(2).get<double>();
+  if (k.contains("vessels")) {
+    const Json& v = k["vessels"];
+    h.vessels = {intervalOf(v.at("mean_mm")),          intervalOf(v.at("max_mm")),
+                 intervalOf(v.at("beyond")),           v.at("furthest").get<std::size_t>(),
+                 v.at("furthest_mm").get<double>(),    intervalOf(v.at("furthest95_mm")),
+                 v.at("furthest_beyond").get<double>()};
+  }
+  if (n.vessels != h.vessels.has_value()) throw BadInput("it says two things of its vessels");
+  return n;
+}
+
 PictureData parsed(const Json& j, Body body) {
   PictureData data;
   render::RetractionScene& s = data.scene;
@@ -188,6 +270,7 @@ PictureData parsed(const Json& j, Body body) {
   s.liverSurface = body.mesh(j.at("liver_surface"));
   s.vesselSurface = body.mesh(j.at("vessel_surface"));
   if (j.contains("bar")) s.bar = barOf(j["bar"], body);
+  if (j.contains("how_sure")) s.sure = howSureOf(j["how_sure"], s.vesselSurface.vertices_lps_mm.cols(), body);
   if (!body.used()) throw BadInput("it holds more than it says");
   const Json& r = j.at("retractor");
   if (r.contains("point_lps_mm")) s.retractorPoint_lps_mm = fromJson<Eigen::Vector3d>(r["point_lps_mm"]);
@@ -201,6 +284,7 @@ PictureData parsed(const Json& j, Body body) {
   s.valid = j.at("valid").get<bool>();
   s.compared = j.value("compared", true);
   s.stiffness = j.value("stiffness", s.stiffness);
+  if (j.contains("sure_numbers")) data.sure = sureNumbersOf(j["sure_numbers"]);
   if (j.contains("vessel_lps_mm")) data.vessel_lps_mm = fromJson<Eigen::Vector3d>(j["vessel_lps_mm"]);
   return data;
 }
@@ -217,6 +301,7 @@ void writePictureFile(const std::filesystem::path& file, const PictureData& data
   body.put(s.liverSurface);
   body.put(s.vesselSurface);
   if (s.bar) put(*s.bar, body);
+  if (s.sure) put(*s.sure, body);
   Json j;
   j["schema"] = "glisson/pictures/2";
   j["mri"] = toJson(s.mri.grid);
@@ -231,6 +316,8 @@ void writePictureFile(const std::filesystem::path& file, const PictureData& data
                     {"length_mm", s.retractorLength_mm}};
   if (s.retractorPoint_lps_mm) j["retractor"]["point_lps_mm"] = toJson(*s.retractorPoint_lps_mm);
   if (s.bar) j["bar"] = toJson(*s.bar);
+  if (s.sure) j["how_sure"] = toJson(*s.sure);
+  if (data.sure) j["sure_numbers"] = toJson(*data.sure);
   j["clinically_significant_mm"] = s.clinicallySignificant_mm;
   j["caption"] = s.caption;
   j["mark"] = s.mark;

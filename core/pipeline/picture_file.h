@@ -5,13 +5,23 @@
 #include <optional>
 
 #include "render/overlay.h"
+#include "uncertainty/sampling.h"
 
 namespace glisson::pipeline {
+
+/// How sure a run is, in the numbers that charts show.
+struct SureNumbers {
+  std::optional<uncertainty::Headline> headline;  ///< with a comparison
+  double at_retractor_mm = 0.0;                   ///< difference, as computed
+  bool vessels = false;                           ///< there are landmarks
+  std::vector<uncertainty::SourceSpread> sources;
+};
 
 /// What the pictures of a run are drawn from, so that they can be drawn again without solving again.
 struct PictureData {
   render::RetractionScene scene;
   std::optional<Eigen::Vector3d> vessel_lps_mm;  ///< where the most misplaced vessel ends up, between the two answers
+  std::optional<SureNumbers> sure;               ///< where it was asked for and is known
 };
 
 /// Name of the file in the folder of a run.

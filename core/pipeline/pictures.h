@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "base/language.h"
 #include "pipeline/picture_file.h"
+#include "pipeline/run.h"
 #include "render/charts.h"
 #include "render/overlay.h"
 
@@ -34,6 +36,7 @@ struct PictureOptions {
   std::vector<NamedCamera> cameras{};  ///< empty: oblique and anterior
   int width = 1600, height = 1200;     ///< of 3-D pictures; pixels per voxel of slices grow with the width
   double dpi = 300.0;
+  Language language = Language::English;  ///< of drawHowSure and drawHowSure3D
 };
 
 /// Draws the slices and, of two answers, the map of differences into the folder; gives the files. Nothing where the
@@ -50,6 +53,22 @@ render::XyChart forceChart(const render::RigidBar& bar, const std::string& stiff
 /// Nothing without such a bar.
 std::vector<std::filesystem::path> drawCharts(const PictureData& data, const PictureOptions& options,
                                               const std::filesystem::path& folder);
+
+/// Of a run that says how sure it is; else nothing.
+std::optional<SureNumbers> sureNumbersOf(const RunResult& result);
+
+/// What the difference at the retractor depends on: its sources, the largest first. Nothing without a comparison.
+std::optional<render::Tornado> retractorTornado(const SureNumbers& numbers, Language language);
+/// The same of the vessel landmark that lies furthest apart; without a comparison of the vessels' places.
+std::optional<render::Tornado> vesselTornado(const SureNumbers& numbers, Language language);
+
+/// How sure the run is: both tornado charts, and the map of the probability of 5 mm; with slices that map alone.
+/// Nothing where the run does not say how sure it is, or may not be drawn. Throws as drawSlices.
+std::vector<std::filesystem::path> drawHowSure(const PictureData& data, const PictureOptions& options,
+                                               const std::filesystem::path& folder);
+/// The vessels with what holds them with 95 %, in 3-D. Throws RenderUnavailable.
+std::vector<std::filesystem::path> drawHowSure3D(const PictureData& data, const PictureOptions& options,
+                                                 const std::filesystem::path& folder);
 
 /// The same as drawSlices in 3-D: both answers, and the contact pressure of a rigid bar on each. Throws
 /// RenderUnavailable.

@@ -305,7 +305,7 @@ Motion motionOf(const retraction::Model& model, const retraction::Result& result
   return m;
 }
 
-std::string runRecord(const Scene& scene, const RunResult& r, render::Palette palette) {
+std::string runRecord(const Scene& scene, const RunResult& r, render::Palette palette, Language language) {
   Json j;
   j["schema"] = "glisson/run/1";
   j["note"] = researchUseOnly;
@@ -323,7 +323,12 @@ std::string runRecord(const Scene& scene, const RunResult& r, render::Palette pa
   j["results_sha256"] = sha256(text.data(), text.size());
   j["threads"] = threadCount();
   nameFiles(j, r.files, palette);
+  j["language"] = nameOf(language);
   return j.dump(1);
+}
+
+Language languageOf(const std::string& record) {
+  return languageNamed(Json::parse(record).value("language", ""));
 }
 
 std::string recordOfFiles(const std::string& record, const std::vector<std::filesystem::path>& files,

@@ -144,6 +144,7 @@ ReplayResult replay(const std::filesystem::path& ofRun, const ReplayOptions& opt
     runOptions.output = place;
     runOptions.palette =
         record.at("palette") == "colour-blind" ? render::Palette::ColourBlind : render::Palette::RedBlue;
+    runOptions.language = languageNamed(record.value("language", ""));
     const Json again = Json::parse(run(scene, runOptions, progress).json);
     result.numbersIdentical = again.at("results_sha256") == record.at("results_sha256");
     result.outputs = compared(record.at("outputs"), again.at("outputs"));

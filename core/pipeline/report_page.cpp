@@ -68,23 +68,36 @@ void results(Page& page, const Scene& scene, const RunResult& r) {
     if (d.code == DiagnosticCode::DifferenceWithheld) rows.emplace_back("Difference", "withheld: " + d.text());
   if (r.difference) {
     const comparison::Difference& d = *r.difference;
-    rows.emplace_back(std::string("Difference over the ") + bodyOf(scene) + ", mean", number(d.mean_mm) + " mm");
+    const bool sure = r.uncertainty && r.uncertainty->known && r.uncertainty->spread.headline;
+    const uncertainty::Headline h = sure ? *r.uncertainty->spread.headline : uncertainty::Headline{};
+    const auto with95 = [sure](const uncertainty::Interval& i) { return sure ? in95(i, "mm") : std::string(); };
+    rows.emplace_back(std::string("Difference over the ") + bodyOf(scene) + ", mean",
+                      number(d.mean_mm) + " mm" + with95(h.mean_mm));
     rows.emplace_back(std::string("95 % of the ") + bodyOf(scene) + " below", number(d.p95_mm) + " mm");
     rows.emplace_back("Largest", number(d.max_mm) + " mm");
-    rows.emplace_back("At the retractor", number(d.at_retractor_mm) + " mm" + wordsOf(significanceOf(r)));
+    rows.emplace_back("At the retractor",
+                      number(d.at_retractor_mm) + " mm" + with95(h.at_retractor_mm) + wordsOf(significanceOf(r)));
     if (r.discretisation && r.discretisation->difference && r.discretisation->difference->at_retractor_mm)
       rows.emplace_back("At the retractor, error from the size of the cells",
                         "about " + number(*r.discretisation->difference->at_retractor_mm) + " mm");
     if (d.travel_mm) {
-      rows.emplace_back("Travel of the bar, " + ownWord + " less textbook", number(*d.travel_mm) + " mm");
+      rows.emplace_back("Travel of the bar, " + ownWord + " less textbook",
+                        number(*d.travel_mm) + " mm" + with95(h.travel_mm));
       rows.emplace_back("Force on the bar at equal lift (" + number(d.equal_lift->travel_mm, 3) + " mm)",
                         number(d.equal_lift->force_N, 3) + " N " + ownWord + ", " +
                             number(d.equal_lift->other_force_N, 3) + " N textbook" +
                             (d.equal_lift->alongPath ? " (along the path, brought to the answers)" : ""));
     }
     if (!d.vessel_mm.empty()) {
-      rows.emplace_back("Vessel landmarks, mean", number(d.vesselMean_mm) + " mm");
-      rows.emplace_back("Vessel landmarks 5 mm or more apart", number(100 * d.vesselFractionBeyond, 3) + " %");
+      rows.emplace_back("Vessel landmarks, mean",
+                        number(d.vesselMean_mm) + " mm" + (h.vessels ? in95(h.vessels->mean_mm, "mm") : ""));
+      rows.emplace_back("Vessel landmarks, largest",
+                        number(d.vesselMax_mm) + " mm" + (h.vessels ? in95(h.vessels->max_mm, "mm") : ""));
+      const auto inPercent = [](const uncertainty::Interval& share) {
+        return in95({100 * share.low, 100 * share.high}, "%");
+      };
+      rows.emplace_back("Vessel landmarks 5 mm or more apart", number(100 * d.vesselFractionBeyond, 3) + " %" +
+                                                                   (h.vessels ? inPercent(h.vessels->beyond) : ""));
     }
   }
   for (const auto& [who, result] :
@@ -198,6 +211,21 @@ void kinematics(Page& page, const RunResult& r) {
   }
 }
 
+/// Of the pictures of how sure the run is; empty for others.
+std::string captionOfHowSure(const std::string& name) {
+  if (name == "tornado-retractor.png")
+    return "What the difference at the retractor depends on: each source of uncertainty alone (one standard "
+           "deviation), and all together";
+  if (name == "tornado-vessel.png") return "The same for the vessels";
+  if (name == "probability-map.png")
+    return "Probability that the two predictions place the tissue 5 mm or more apart, at rest, with the line of one "
+           "half";
+  if (name.rfind("how-sure-3d", 0) == 0)
+    return "Vessels where the first stiffness puts them, coloured by the distance that holds each place with 95 %, "
+           "inside the region that holds them with 95 %";
+  return "";
+}
+
 /// Names the colours of the palette.
 std::string captionOf(const std::string& name, render::Palette palette, const Scene& scene, bool compared) {
   const std::string own = ownIn(scene), body = bodyOf(scene);
@@ -210,6 +238,7 @@ std::string captionOf(const std::string& name, render::Palette palette, const Sc
     return "Contact pressure on the retracted " + body + ", seen from behind and below through the bar: " +
            (name.rfind("contact-pressure-atlas", 0) == 0 ? "textbook" : own) + " stiffness";
   if (name == "difference-map.png") return "Distance between the two predictions, mm";
+  if (const std::string sure = captionOfHowSure(name); !sure.empty()) return sure;
   if (name.rfind("overlay-3d", 0) == 0)
     return compared ? "Vessels where the " + own +
                           " stiffness puts them (blue) and where the textbook stiffness does (" + textbook + ")"
@@ -226,12 +255,13 @@ std::string captionOf(const std::string& name, render::Palette palette, const Sc
 }  // namespace
 
 void Writer::report(const Scene& scene, const RunResult& r,
-                    const std::vector<std::pair<std::string, std::string>>& inputs, render::Palette palette) {
+                    const std::vector<std::pair<std::string, std::string>>& inputs, render::Palette palette,
+                    Language language) {
   Page page(r.difference ? std::string(bodyOf(scene) == std::string("liver") ? "Liver retraction, " : "Retraction, ") +
                                ownIn(scene) + " against textbook stiffness"
                          : std::string("Deformation under load"));
   results(page, scene, r);
-  if (r.uncertainty) howSure(*r.uncertainty, page);
+  if (r.uncertainty) detail::howSure(*r.uncertainty, language, page);
   trust(page, scene, r);
   kinematics(page, r);
   page.heading("Pictures");

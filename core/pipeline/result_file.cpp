@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little, "values are written as they lie in memory");
 
 constexpr char magic[8] = {'G', 'L', 'I', 'S', 'S', 'O', 'N', 'R'};
-constexpr std::uint64_t form = 1;  ///< grows with every change of the fields below
+constexpr std::uint64_t form = 2;  ///< grows with every change of the fields below
 constexpr std::size_t digestLength = 64;
 
 DiagnosticCode codeNamed(const std::string& name) {
@@ -220,19 +220,23 @@ void one(Archive& a, uncertainty::Interval& i) {
 }
 
 void one(Archive& a, uncertainty::LandmarkSpread& s) {
-  a(s.landmark, s.sd_mm, s.textbook_sd_mm, s.difference_sd_mm, s.difference95_mm, s.beyond);
+  a(s.landmark, s.sd_mm, s.textbook_sd_mm, s.difference_sd_mm, s.difference95_mm, s.beyond, s.place_mm2);
+}
+
+void one(Archive& a, uncertainty::VesselHeadline& h) {
+  a(h.mean_mm, h.max_mm, h.beyond, h.furthest, h.furthest_mm, h.furthest95_mm, h.furthestBeyond);
 }
 
 void one(Archive& a, uncertainty::Headline& h) {
-  a(h.mean_mm, h.at_retractor_mm, h.travel_mm, h.vessels_max_mm, h.beyond);
+  a(h.mean_mm, h.at_retractor_mm, h.travel_mm, h.vessels, h.beyond, h.travelBeyond, h.withinVoxel);
 }
 
 void one(Archive& a, uncertainty::SourceSpread& s) {
-  a(s.kind, s.sd_mm, s.mean_sd_mm, s.travel_sd_mm, s.vessels_sd_mm);
+  a(s.kind, s.sd_mm, s.mean_sd_mm, s.travel_sd_mm, s.vessels_sd_mm, s.furthest_sd_mm);
 }
 
-void one(Archive& a, uncertainty::Spread& s) {
-  a(s.landmarks, s.headline, s.sources);
+void one(Archive& a, uncertainty::VesselTip& tip) {
+  a(tip.landmark, tip.moves_mm, tip.place95_mm, tip.apart_mm, tip.apart95_mm, tip.beyond);
 }
 
 void one(Archive& a, uncertainty::SourceWords& w) {
@@ -248,8 +252,8 @@ void one(Archive& a, uncertainty::Leverage& l) {
 }
 
 void one(Archive& a, uncertainty::Uncertainty& u) {
-  a(u.known, u.why, u.spread, u.words, u.checks, u.missedShare, u.leverage, u.fields, u.solves, u.iterations,
-    u.diagnostics);
+  a(u.known, u.why, u.spread.landmarks, u.spread.headline, u.spread.sources, u.spread.cellBeyond, u.words, u.checks,
+    u.missedShare, u.leverage, u.tip, u.beyond, u.fields, u.solves, u.iterations, u.diagnostics);
 }
 
 void one(Archive& a, LinearBeside& l) {

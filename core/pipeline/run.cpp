@@ -44,7 +44,7 @@ Inputs readInputs(const Scene& scene, const Progress& progress) {
 /// The record, and where there is a folder, the scene beside it.
 void writeRecord(detail::RunState& state) {
   RunResult& r = state.result;
-  r.json = detail::runRecord(state.scene, r, state.options.palette);
+  r.json = detail::runRecord(state.scene, r, state.options.palette, state.options.language);
   if (!state.writer) return;
   r.files.insert(r.files.begin(), state.options.output / "run.json");
   state.writer->text("scene.json", detail::sceneSeenFrom(state.scene, state.options.output));

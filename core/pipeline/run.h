@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "base/language.h"
 #include "base/progress.h"
 #include "comparison/difference.h"
 #include "elastography/statistics.h"
@@ -25,7 +26,8 @@ namespace glisson::pipeline {
 struct RunOptions {
   std::filesystem::path output;  ///< folder for results and pictures; empty: nothing is written
   render::Palette palette = render::Palette::RedBlue;
-  bool discretisation = true;  ///< false: a study that measures errors itself does without the estimate
+  Language language = Language::English;  ///< of the pictures of how sure the answer is
+  bool discretisation = true;             ///< false: a study that measures errors itself does without the estimate
 };
 
 /// What linear theory says beside non-linear kinematics: same body, same load.

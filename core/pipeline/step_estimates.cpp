@@ -17,6 +17,11 @@ std::string patchInWords(const retraction::Setup& setup) {
          (refusal ? ": a rigid bar is not offered for " + retraction::inWords(*refusal, setup) : std::string());
 }
 
+/// Draws at every cell, of which the probability of 5 mm is made: 1,000 of each column.
+double draws_s(const uncertainty::Options& asked, const Forecast& f) {
+  return f.needs.compare ? 1.5e-6 * (asked.fields + 12) * f.cells : 0.0;
+}
+
 /// What "auto" does without a rigid bar.
 std::string autoInWords(const retraction::Setup& setup) {
   const auto refusal = retraction::largeDeformationRefusal(setup);
@@ -229,7 +234,8 @@ Estimate uncertainty(const Forecast& f) {
           needed  ? "asked for: every source through the tangent of both answers, and some draws in full"
           : asked ? "asked for, and offered for a rigid bar only"
                   : "not asked for (\"uncertainty\")",
-          asked ? f.answers * (0.1 * (asked->fields + 12) + asked->checks) * f.solve_s : 0.0, 2.0 * f.solve_MB};
+          asked ? f.answers * (0.1 * (asked->fields + 12) + asked->checks) * f.solve_s + draws_s(*asked, f) : 0.0,
+          2.0 * f.solve_MB};
 }
 
 Estimate linearGap(const Forecast& f) {
@@ -272,6 +278,16 @@ Estimate sliceOverlay(const Forecast& f) {
 Estimate overlay3D(const Forecast& f) {
   const bool needed = f.needs.pictures;
   return {needed, needed ? "asked for" : "no picture is asked for: no OpenGL is started", 4.0, 200};
+}
+
+Estimate uncertaintyPictures(const Forecast& f) {
+  const Needs& n = f.needs;
+  return {n.pictures && n.uncertainty,
+          !n.pictures      ? "no picture is asked for"
+          : !n.uncertainty ? "the run does not say how sure it is: there is nothing to show"
+          : n.compare      ? "sources in mm, vessels with what holds them, and a map of the probability of 5 mm"
+                           : "sources in mm, and vessels with what holds them; one answer has no probability of 5 mm",
+          3.0, 200};
 }
 
 Estimate report(const Forecast& f) {

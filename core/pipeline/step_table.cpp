@@ -100,6 +100,12 @@ constexpr std::array<Step, stepCount> table{{
      .work = w::writeSlices,
      .writes = true},
     {.id = Id::Overlay3D, .name = "3d-overlay", .estimate = e::overlay3D, .work = w::writeOverlays3D, .writes = true},
+    {.id = Id::UncertaintyPictures,
+     .name = "uncertainty-pictures",
+     .estimate = e::uncertaintyPictures,
+     .work = w::writeHowSure,
+     .before = w::leaveOutHowSure,
+     .writes = true},
     {.id = Id::Sofa, .name = "sofa", .estimate = e::sofa, .work = w::writeSofa, .writes = true},
     {.id = Id::Report, .name = "report", .estimate = e::report, .work = w::writeReport, .writes = true},
 }};

@@ -284,7 +284,8 @@ void leaveOutUncertainty(RunState& s) {
 
 void spreadUncertainty(RunState& s, const Progress& p) {
   RunResult& r = s.result;
-  r.uncertainty = uncertaintyOf(s.scene, s.inputs, s.cells, s.setup, r.atlas ? &s.atlasModel : nullptr, r, p);
+  r.uncertainty =
+      uncertaintyOf(s.scene, s.inputs, s.cells, s.setup, s.vessels, r.atlas ? &s.atlasModel : nullptr, r, p);
   r.diagnostics.add(r.uncertainty->diagnostics);
 }
 

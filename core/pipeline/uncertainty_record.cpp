@@ -19,11 +19,19 @@ Json toJson(const Interval& i) {
   return Json::array({i.low, i.high});
 }
 
-std::string range(const Interval& i) {
-  return number(i.low, 3) + " to " + number(i.high, 3) + " mm";
+Json toJson(const uncertainty::VesselTip& tip) {
+  Json j = {{"landmark", tip.landmark}, {"moves_mm", tip.moves_mm}, {"within95_mm", tip.place95_mm}};
+  if (tip.apart_mm)
+    j["difference"] = {
+        {"mm", *tip.apart_mm}, {"interval95_mm", toJson(*tip.apart95_mm)}, {"probability_beyond_5mm", *tip.beyond}};
+  return j;
 }
 
 }  // namespace
+
+std::string in95(const Interval& i, const char* unit) {
+  return " (95 %: " + number(i.low, 3) + " to " + number(i.high, 3) + " " + unit + ")";
+}
 
 Json uncertaintyToJson(const uncertainty::Uncertainty& u) {
   Json j = {{"known", u.known}};
@@ -32,6 +40,10 @@ Json uncertaintyToJson(const uncertainty::Uncertainty& u) {
     return j;
   }
   j["sentence"] = uncertainty::inWords(u.spread);
+  for (const Language language : {Language::English, Language::German})
+    if (const std::string text = uncertainty::forSurgeon(u.tip, u.spread, language); !text.empty())
+      j["for_surgeons"][nameOf(language)] = text;
+  if (u.tip) j["vessel_tip"] = toJson(*u.tip);
   j["atlas"] = "exact by definition";
   j["sources"] = Json::array();
   for (std::size_t i = 0; i < u.spread.sources.size(); ++i) {
@@ -41,6 +53,7 @@ Json uncertaintyToJson(const uncertainty::Uncertainty& u) {
                             {"mean_sd_mm", s.mean_sd_mm},
                             {"travel_sd_mm", s.travel_sd_mm},
                             {"vessels_sd_mm", s.vessels_sd_mm},
+                            {"furthest_vessel_sd_mm", s.furthest_sd_mm},
                             {"spread", u.words[i].spread},
                             {"reference", u.words[i].reference}});
   }
@@ -71,9 +84,15 @@ void addIntervals(const uncertainty::Uncertainty& u, Json& difference) {
   Json& i = difference["interval95"];
   i["mean_mm"] = toJson(h.mean_mm);
   i["at_retractor_mm"] = toJson(h.at_retractor_mm);
-  if (h.vessels_max_mm) i["vessels_max_mm"] = toJson(*h.vessels_max_mm);
+  if (h.vessels) {
+    i["vessels_mean_mm"] = toJson(h.vessels->mean_mm);
+    i["vessels_max_mm"] = toJson(h.vessels->max_mm);
+    i["vessels_fraction_beyond_5mm"] = toJson(h.vessels->beyond);
+  }
   i["travel_mm"] = toJson(h.travel_mm);
   difference["probability_beyond_5mm"] = h.beyond;
+  difference["probability_travel_beyond_5mm"] = h.travelBeyond;
+  difference["probability_mean_within_voxel"] = h.withinVoxel;
 }
 
 std::vector<double> spreadOf(const uncertainty::Uncertainty& u, std::size_t landmark) {
@@ -88,32 +107,38 @@ std::vector<double> spreadOf(const uncertainty::Uncertainty& u, std::size_t land
           interval.high, found->beyond.value_or(none)};
 }
 
-void howSure(const uncertainty::Uncertainty& u, report::Page& page) {
+void howSure(const uncertainty::Uncertainty& u, Language language, report::Page& page) {
   page.heading("How sure?");
   if (!u.known) {
     page.paragraph("How sure this answer is cannot be told: " + u.why + ".");
     return;
   }
+  if (const std::string text = uncertainty::forSurgeon(u.tip, u.spread, language); !text.empty())
+    page.paragraph(text + ".");
   std::string sentence = uncertainty::inWords(u.spread);
   sentence.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence.front())));
   page.paragraph(sentence + ".");
   if (u.spread.headline) {
     const uncertainty::Headline& h = *u.spread.headline;
-    std::vector<std::pair<std::string, std::string>> rows = {{"Difference over the liver, mean", range(h.mean_mm)},
-                                                             {"At the retractor", range(h.at_retractor_mm)}};
-    if (h.vessels_max_mm) rows.emplace_back("Vessel landmarks, largest", range(*h.vessels_max_mm));
-    rows.emplace_back("Travel of the bar, measured less textbook", range(h.travel_mm));
-    page.table(rows);
+    std::vector<std::vector<std::string>> rows = {
+        {"5 mm or more apart at the retractor", uncertainty::percent(h.beyond, Language::English)}};
+    if (h.vessels)
+      rows.push_back({"5 mm or more apart at the vessel furthest apart",
+                      uncertainty::percent(h.vessels->furthestBeyond, Language::English)});
+    rows.push_back({"5 mm or more in the travel of the bar", uncertainty::percent(h.travelBeyond, Language::English)});
+    rows.push_back({"One MRI voxel (" + number(defaults::mriVoxel.mm()) + " mm) or less, mean over the body",
+                    uncertainty::percent(h.withinVoxel, Language::English)});
+    page.table({"The two predictions are", "with a probability of"}, rows);
   }
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < u.spread.sources.size(); ++i) {
     const uncertainty::SourceSpread& s = u.spread.sources[i];
     rows.push_back({u.words[i].name, u.words[i].spread, number(s.sd_mm, 2) + " mm", number(s.vessels_sd_mm, 2) + " mm",
-                    number(s.travel_sd_mm, 2) + " mm"});
+                    number(s.furthest_sd_mm, 2) + " mm", number(s.travel_sd_mm, 2) + " mm"});
   }
   page.table(
       {"Source (one standard deviation)", "of what", u.spread.headline ? "difference at the retractor" : "vessels",
-       "place of the vessels", "travel of the bar"},
+       "place of the vessels", "difference at the vessel furthest apart", "travel of the bar"},
       rows);
   if (u.leverage)
     page.paragraph("Where the elastogram matters: half of what the liver's stiffness does to the " +

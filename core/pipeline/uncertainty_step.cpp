@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/detail/uncertainty_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "elastography/fill.h"
@@ -49,6 +50,22 @@ std::vector<uncertainty::FurtherErrors> furtherErrorsOf(const RunResult& r) {
   return all;
 }
 
+/// Landmarks where branches end that no other leaves.
+std::vector<std::size_t> tipsOf(const anatomy::VesselModel& vessels) {
+  const std::vector<anatomy::VesselBranch>& branches = vessels.tree.branches;
+  std::vector<bool> left(branches.size(), false);
+  for (const anatomy::VesselBranch& b : branches)
+    if (b.parent >= 0) left[static_cast<std::size_t>(b.parent)] = true;
+  std::vector<std::size_t> tips;
+  const std::vector<Eigen::Vector3d>& line = vessels.centreline_lps_mm;
+  for (std::size_t b = 0; b < branches.size(); ++b) {
+    if (left[b] || branches[b].points_lps_mm.empty()) continue;
+    const auto end = std::find(line.begin(), line.end(), branches[b].points_lps_mm.back());
+    if (end != line.end()) tips.push_back(static_cast<std::size_t>(end - line.begin()));
+  }
+  return tips;
+}
+
 bool shearKnown(const Scene& scene, const Inputs& inputs) {
   switch (scene.material.kind) {
     case MaterialSpec::Kind::Uniform: return scene.material.quantity == StiffnessQuantity::Shear;
@@ -62,8 +79,8 @@ bool shearKnown(const Scene& scene, const Inputs& inputs) {
 }  // namespace
 
 uncertainty::Uncertainty uncertaintyOf(const Scene& scene, const Inputs& inputs, const image::Mask& cells,
-                                       const retraction::Setup& setup, const retraction::Model* atlas,
-                                       const RunResult& r, const Progress& progress) {
+                                       const retraction::Setup& setup, const anatomy::VesselModel& vessels,
+                                       const retraction::Model* atlas, const RunResult& r, const Progress& progress) {
   std::optional<uncertainty::Retracted> textbook;
   if (atlas != nullptr && r.atlas)
     textbook.emplace(uncertainty::Retracted{*atlas, *r.atlas, scene.compare->quantity == StiffnessQuantity::Shear});
@@ -72,7 +89,8 @@ uncertainty::Uncertainty uncertaintyOf(const Scene& scene, const Inputs& inputs,
                                   setup,
                                   r.landmarks_mm,
                                   elastogramOf(scene, inputs, cells),
-                                  furtherErrorsOf(r)};
+                                  furtherErrorsOf(r),
+                                  tipsOf(vessels)};
   return uncertainty::propagate(patient, *scene.uncertainty, scene.setup.seed, progress);
 }
 

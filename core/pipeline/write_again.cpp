@@ -40,6 +40,7 @@ void writeAgain(const RunResult& result, const WriteAgain& where, std::vector<fs
   };
   // In the order of the run: the report numbers its figures by it.
   bool drawn = false;
+  const Language language = detail::languageOf(result.json);
   for (const fs::path& file : result.files) {
     const fs::path name = file.lexically_relative(where.from);
     if (name == "run.json" || name == "scene.json" || name.stem() == "report") continue;
@@ -58,6 +59,8 @@ void writeAgain(const RunResult& result, const WriteAgain& where, std::vector<fs
       note();
       progress.report(0.4, "3-D");
       if (solid) writer.overlays3D(data, where.palette);
+      writer.howSure(data, language);
+      if (solid) writer.howSure3D(data, where.palette, language);
       note();
     }
   }
@@ -66,7 +69,7 @@ void writeAgain(const RunResult& result, const WriteAgain& where, std::vector<fs
                                     [](const fs::path& f) { return f.filename() == "report.html"; });
   if (reported) {
     for (const char* name : {"report.html", "report.pdf"}) written.push_back(where.into / name);
-    writer.report(scene, r, detail::inputDigestsOf(result.json), where.palette);
+    writer.report(scene, r, detail::inputDigestsOf(result.json), where.palette, language);
   }
   written.push_back(where.into / "run.json");
   writer.text("run.json", detail::recordOfFiles(result.json, r.files, where.beside, where.palette) + "\n");

@@ -52,6 +52,24 @@ void writeOverlays3D(RunState& s, const Progress&) {
   }
 }
 
+void leaveOutHowSure(RunState& s) {
+  if (!s.needs.pictures || !s.needs.uncertainty) return;
+  if (!s.pictures || !s.pictures->sure)
+    s.log.leaveOut(StepId::UncertaintyPictures, "how sure the run is could not be told");
+  else if (!s.pictures->scene.valid)
+    s.log.leaveOut(StepId::UncertaintyPictures, "what is no deformation is not drawn");
+}
+
+void writeHowSure(RunState& s, const Progress&) {
+  s.writer->howSure(*s.pictures, s.options.language);
+  try {
+    s.writer->howSure3D(*s.pictures, s.options.palette, s.options.language);
+  } catch (const RenderUnavailable&) {
+    // The overlays have told it already.
+    s.log.explain(StepId::UncertaintyPictures, "charts and map; the 3-D picture cannot be drawn here");
+  }
+}
+
 void writeSofa(RunState& s, const Progress&) {
   RunResult& r = s.result;
   const exchange::SofaExport node = exchange::writeSofa(s.options.output / "sofa", r.model, s.scene.setup,
@@ -62,7 +80,7 @@ void writeSofa(RunState& s, const Progress&) {
 }
 
 void writeReport(RunState& s, const Progress&) {
-  s.writer->report(s.scene, s.result, inputDigests(s.scene), s.options.palette);
+  s.writer->report(s.scene, s.result, inputDigests(s.scene), s.options.palette, s.options.language);
 }
 
 }  // namespace glisson::pipeline::detail::works

@@ -78,7 +78,7 @@ Scale::Scale(const Axis& axis, double low, double high) : logarithmic_(axis.loga
   if (!axis.low) low_ = std::floor(low_ / step + 1e-9) * step;
   if (!axis.high) high_ = std::ceil(high_ / step - 1e-9) * step;
   for (double n = std::ceil(low_ / step - 1e-9); n * step <= high_ + 1e-9 * step; n += 1.0)
-    ticks_.push_back({n * step, shortNumber(std::abs(n) < 0.5 ? 0.0 : n * step)});
+    ticks_.push_back({n * step, inLanguage(shortNumber(std::abs(n) < 0.5 ? 0.0 : n * step), axis.language)});
 }
 
 void Scale::setPixels(double atLow, double atHigh) {
@@ -104,7 +104,7 @@ double chartFont(const ChartSize& size) {
 }
 
 ChartFrame beginChart(Painter& paint, const ChartSize& size, const std::string& title, const std::string& caption,
-                      int legendRows) {
+                      int legendRows, Language language) {
   if (size.width < 200 || size.height < 160 || size.width > 20000 || size.height > 20000)
     throw BadArgument("a chart of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
                       " pixels is outside 200 x 160 to 20000 x 20000");
@@ -117,7 +117,7 @@ ChartFrame beginChart(Painter& paint, const ChartSize& size, const std::string& 
                {.size_px = 1.25 * f, .colour = ink, .anchor = Anchor::Centre, .bold = true});
   const std::vector<std::string> lines = wrapText(caption, 0.8 * f, size.width - 2.0 * f);
   double y = size.height - 0.7 * f;
-  paint.text({f, y}, researchUseOnly, {.size_px = 0.75 * f, .colour = {150, 80, 0}});
+  paint.text({f, y}, phrase(researchUseOnly, language), {.size_px = 0.75 * f, .colour = {150, 80, 0}});
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
     y -= 1.2 * f;
     paint.text({f, y}, *line, {.size_px = 0.8 * f, .colour = {90, 96, 104}});

@@ -41,7 +41,7 @@ struct ChartFrame {
   double font = 0.0, x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;  ///< plot area, pixels, y0 at the top
 };
 ChartFrame beginChart(Painter& paint, const ChartSize& size, const std::string& title, const std::string& caption,
-                      int legendRows);
+                      int legendRows, Language language = Language::English);
 void drawAxisX(Painter& paint, const ChartFrame& frame, const Scale& scale, const std::string& title, bool grid);
 void drawAxisY(Painter& paint, const ChartFrame& frame, const Scale& scale, const std::string& title);
 void drawHorizontal(Painter& paint, const ChartFrame& frame, const Scale& y, const std::vector<ReferenceLine>& lines);

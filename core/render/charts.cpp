@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "render/chart_frame.h"
 #include "render/colour_map.h"
+#include "render/detail/tornado.h"
 #include "render/detail/xy_chart.h"
 #include "render/font.h"
 #include "render/svg_painter.h"
@@ -151,6 +152,10 @@ void paintChart(Painter& paint, const XyChart& chart, const ChartSize& size) {
   detail::paintXyChart(paint, chart, size);
 }
 
+void paintChart(Painter& paint, const Tornado& chart, const ChartSize& size) {
+  detail::paintTornado(paint, chart, size);
+}
+
 template <typename Chart>
 Picture drawn(const Chart& chart, const ChartSize& size) {
   Picture picture = blankPicture(std::max(1, size.width), std::max(1, size.height), paper);
@@ -177,6 +182,9 @@ void paint(Painter& painter, const BoxPlot& chart, const ChartSize& size) {
 void paint(Painter& painter, const XyChart& chart, const ChartSize& size) {
   paintChart(painter, chart, size);
 }
+void paint(Painter& painter, const Tornado& chart, const ChartSize& size) {
+  paintChart(painter, chart, size);
+}
 Picture draw(const Histogram& chart, const ChartSize& size) {
   return drawn(chart, size);
 }
@@ -186,6 +194,9 @@ Picture draw(const BoxPlot& chart, const ChartSize& size) {
 Picture draw(const XyChart& chart, const ChartSize& size) {
   return drawn(chart, size);
 }
+Picture draw(const Tornado& chart, const ChartSize& size) {
+  return drawn(chart, size);
+}
 std::string svg(const Histogram& chart, const ChartSize& size) {
   return written(chart, size);
 }
@@ -193,6 +204,9 @@ std::string svg(const BoxPlot& chart, const ChartSize& size) {
   return written(chart, size);
 }
 std::string svg(const XyChart& chart, const ChartSize& size) {
+  return written(chart, size);
+}
+std::string svg(const Tornado& chart, const ChartSize& size) {
   return written(chart, size);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/language.h"
 #include "render/painter.h"
 
 namespace glisson::render {
@@ -27,6 +28,7 @@ struct Axis {
   bool logarithmic = false;
   std::optional<double> low{};  ///< from the data where unset
   std::optional<double> high{};
+  Language language = Language::English;  ///< of the numbers
 };
 
 /// How many values fall into each bin.
@@ -72,6 +74,22 @@ struct XyChart {
   std::string caption{};
 };
 
+/// How far each of several causes moves one number: bars from low to high about it, as they come.
+struct Tornado {
+  struct Bar {
+    std::string label{};  ///< left of the axis
+    double low = 0.0, high = 0.0;
+    std::string note{};  ///< right of the bar
+    bool sum = false;    ///< all causes together: apart from the others, in another colour
+  };
+  std::string title{};
+  Axis x{};
+  double here = 0.0;  ///< the number, a line through all bars
+  std::vector<Bar> bars{};
+  std::vector<ReferenceLine> lines{};  ///< vertical
+  std::string caption{};
+};
+
 /// Size of a chart, pixels.
 struct ChartSize {
   int width = 1600;
@@ -82,12 +100,15 @@ struct ChartSize {
 void paint(Painter& painter, const Histogram& chart, const ChartSize& size = {});
 void paint(Painter& painter, const BoxPlot& chart, const ChartSize& size = {});
 void paint(Painter& painter, const XyChart& chart, const ChartSize& size = {});
+void paint(Painter& painter, const Tornado& chart, const ChartSize& size = {});
 Picture draw(const Histogram& chart, const ChartSize& size = {});
 Picture draw(const BoxPlot& chart, const ChartSize& size = {});
 Picture draw(const XyChart& chart, const ChartSize& size = {});
+Picture draw(const Tornado& chart, const ChartSize& size = {});
 std::string svg(const Histogram& chart, const ChartSize& size = {});
 std::string svg(const BoxPlot& chart, const ChartSize& size = {});
 std::string svg(const XyChart& chart, const ChartSize& size = {});
+std::string svg(const Tornado& chart, const ChartSize& size = {});
 
 /// The column of a histogram, drawn at that size, that a pixel lies in: from its lower end up to its upper one. Nothing
 /// outside of the plot area, and where a column is empty.

@@ -50,4 +50,12 @@ Rgb ColourMap::at(double fraction) const {
   return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
 }
 
+double scaleEnd(double most) {
+  if (!(most > 0.0) || !std::isfinite(most)) return 1.0;
+  const double ten = std::pow(10.0, std::floor(std::log10(most)));
+  for (const double step : {1.0, 2.0, 3.0, 4.0, 6.0, 8.0})
+    if (most <= step * ten) return step * ten;
+  return 10.0 * ten;
+}
+
 }  // namespace glisson::render

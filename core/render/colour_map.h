@@ -23,6 +23,9 @@ class ColourMap {
   std::span<const Rgb> anchors_;  ///< evenly spaced, linear in sRGB between
 };
 
+/// End of a scale that holds a value: 1, 2, 3, 4, 6 or 8 times a power of ten; 1 where it is not above 0.
+double scaleEnd(double most);
+
 /// The project's colours, told apart by colour-blind readers too.
 namespace colours {
 inline constexpr Rgb mreBlue{86, 140, 255};  // text and lines on dark

@@ -122,7 +122,7 @@ class DifferenceField {
         toAtlas_(atlas_.grid) {}
 
   bool inLiver(const Eigen::Vector3d& p_lps) const { return !(sampleLinear(liver_, toLiver_(p_lps)) < 0.5F); }
-  double at_mm(const Eigen::Vector3d& p_lps) const {
+  double at(const Eigen::Vector3d& p_lps) const {
     return static_cast<double>((sampleLinear(mre_, toMre_(p_lps)) - sampleLinear(atlas_, toAtlas_(p_lps))).norm());
   }
 
@@ -134,19 +134,39 @@ class DifferenceField {
   LpsToIndex toLiver_, toMre_, toAtlas_;
 };
 
-/// What of the liver a plane shows: the largest difference, and the box of its pixels.
+/// HowSure::beyond anywhere in the liver, in percent.
+class ProbabilityField {
+ public:
+  explicit ProbabilityField(const RetractionScene& scene)
+      : liver_(asScalar(scene.liver)), beyond_(scene.sure->beyond), toLiver_(liver_.grid), toBeyond_(beyond_.grid) {}
+
+  bool inLiver(const Eigen::Vector3d& p_lps) const {
+    return !(sampleLinear(liver_, toLiver_(p_lps)) < 0.5F) && std::isfinite(at(p_lps));
+  }
+  double at(const Eigen::Vector3d& p_lps) const {
+    return 100.0 * static_cast<double>(sampleKnown(beyond_, toBeyond_(p_lps)));
+  }
+
+ private:
+  image::ScalarVolume liver_;
+  const image::ScalarVolume& beyond_;
+  LpsToIndex toLiver_, toBeyond_;
+};
+
+/// What of the liver a plane shows: the largest value, and the box of its pixels.
 struct LiverOnPlane {
-  double largest_mm = 0.0;
+  double largest = 0.0;
   Eigen::Vector2d low{1e9, 1e9}, high{-1e9, -1e9};
 };
 
-LiverOnPlane liverOn(const SlicePlane& plane, const DifferenceField& difference) {
+template <class Field>
+LiverOnPlane liverOn(const SlicePlane& plane, const Field& field) {
   LiverOnPlane liver;
   for (int y = 0; y < plane.height; ++y)
     for (int x = 0; x < plane.width; ++x) {
       const Eigen::Vector3d p = plane.toLps(x + 0.5, y + 0.5);
-      if (!difference.inLiver(p)) continue;
-      liver.largest_mm = std::max(liver.largest_mm, difference.at_mm(p));
+      if (!field.inLiver(p)) continue;
+      liver.largest = std::max(liver.largest, field.at(p));
       liver.low = liver.low.cwiseMin(Eigen::Vector2d(x, y));
       liver.high = liver.high.cwiseMax(Eigen::Vector2d(x + 1, y + 1));
     }
@@ -161,20 +181,27 @@ Rgb withIsoline(Rgb c, double cover) {
   return {mix(c.r, isolineColour.r), mix(c.g, isolineColour.g), mix(c.b, isolineColour.b)};
 }
 
-/// The difference in colours over the liver, an isoline where it is clinically significant, dimmed anatomy around.
-Picture paintDifference(const RetractionScene& scene, const SlicePlane& plane, const DifferenceField& difference,
-                        const ColourBar& bar) {
+/// The plane, or that part of it that holds the liver and a margin.
+SlicePlane cutTo(const SlicePlane& plane, const LiverOnPlane& liver, const MapOptions& options) {
+  if (!options.margin_mm || liver.low.x() > liver.high.x()) return plane;
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(*options.margin_mm / plane.mmPerPixel);
+  return cropOf(plane, liver.low - margin, liver.high + margin);
+}
+
+/// The field in colours over the liver, an isoline at the bar's mark, dimmed anatomy around.
+template <class Field>
+Picture paintField(const RetractionScene& scene, const SlicePlane& plane, const Field& field, const ColourBar& bar) {
   const LpsToIndex toMri(scene.mri.grid);
   const Grey grey(scene.mri);
   return painted(plane, [&](const Eigen::Vector3d& p, int, int) -> Rgb {
-    if (!difference.inLiver(p)) {
+    if (!field.inLiver(p)) {
       const auto v = static_cast<std::uint8_t>(grey(sampleLinear(scene.mri, toMri(p))) * 0.6);
       return {v, v, v};
     }
-    const double d = difference.at_mm(p);
-    const double dx = difference.at_mm(p + plane.mmPerPixel * plane.right) - d;
-    const double dy = difference.at_mm(p + plane.mmPerPixel * plane.down) - d;
-    const double slope = std::hypot(dx, dy);
+    const double d = field.at(p);
+    const double dx = field.at(p + plane.mmPerPixel * plane.right) - d;
+    const double dy = field.at(p + plane.mmPerPixel * plane.down) - d;
+    const double slope = std::hypot(dx, dy);  // not a number at the rim of what is known: no line there
     const double cover = slope > 1e-9 ? std::clamp(1.6 - std::abs(d - *bar.mark) / slope, 0.0, 1.0) : 0.0;
     return withIsoline(bar.map.at((d - bar.low) / (bar.high - bar.low)), cover);
   });
@@ -251,17 +278,14 @@ Picture differencePicture(const RetractionScene& scene, const MapOptions& option
   SlicePlane plane = planeOfSlice(grid, k, options.pixelsPerVoxel);
   const DifferenceField difference(scene);
   const LiverOnPlane liver = liverOn(plane, difference);
-  if (options.margin_mm && liver.low.x() <= liver.high.x()) {
-    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(*options.margin_mm / plane.mmPerPixel);
-    plane = cropOf(plane, liver.low - margin, liver.high + margin);
-  }
+  plane = cutTo(plane, liver, options);
   ColourBar bar{.map = ColourMap::magma(),
                 .low = options.low,
-                .high = std::max(options.high, std::ceil(liver.largest_mm)),
+                .high = std::max(options.high, std::ceil(liver.largest)),
                 .title = "|u " + scene.stiffness + " − u atlas| (mm)",
                 .mark = scene.clinicallySignificant_mm};
   bar.markColour = isolineColour;
-  Picture picture = paintDifference(scene, plane, difference, bar);
+  Picture picture = paintField(scene, plane, difference, bar);
   if (!scene.valid) drawNotValid(picture);
   if (!options.decorate) return picture;
   SliceFrame frame{.plane = plane};
@@ -269,10 +293,42 @@ Picture differencePicture(const RetractionScene& scene, const MapOptions& option
   char text[120];
   std::snprintf(text, sizeof text, "%g mm: clinically significant", scene.clinicallySignificant_mm);
   frame.legend.push_back({isolineColour, text, true});
-  std::snprintf(text, sizeof text, ". Largest difference of the liver that lies here at rest: %.1f mm.",
-                liver.largest_mm);
+  std::snprintf(text, sizeof text, ". Largest difference of the liver that lies here at rest: %.1f mm.", liver.largest);
   frame.notes = {sliceNote(k, grid) + text};
   frame.caption = scene.caption.empty() ? options.caption : scene.caption;
+  frame.mark = scene.mark;
+  frame.ring_lps_mm = options.ring_lps_mm;
+  frame.colourBar = bar;
+  return frameSlice(picture, frame);
+}
+
+Picture probabilityPicture(const RetractionScene& scene, const MapOptions& options) {
+  const image::Grid& grid = scene.mri.grid;
+  if (!scene.sure || scene.sure->beyond.values.empty())
+    throw BadArgument("the scene has no probabilities of a difference to show");
+  checkOptions(grid, options);
+  const int k = options.slice < 0 ? sliceOfLargestDifference(scene) : options.slice;
+  SlicePlane plane = planeOfSlice(grid, k, options.pixelsPerVoxel);
+  const ProbabilityField probability(scene);
+  const LiverOnPlane liver = liverOn(plane, probability);
+  plane = cutTo(plane, liver, options);
+  ColourBar bar{.map = ColourMap::magma(), .low = 0.0, .high = 100.0, .title = "P (%)", .mark = 50.0};
+  bar.markColour = isolineColour;
+  Picture picture = paintField(scene, plane, probability, bar);
+  if (!scene.valid) drawNotValid(picture);
+  if (!options.decorate) return picture;
+  SliceFrame frame{.plane = plane};
+  frame.language = options.language;
+  const auto words = [&](const char* text, std::initializer_list<std::string> values = {}) {
+    return phrase(text, options.language, values);
+  };
+  const auto whole = [](double v) { return std::to_string(std::lround(v)); };
+  frame.title =
+      words("Chance that the two predictions differ by @ mm or more", {whole(scene.clinicallySignificant_mm)});
+  frame.legend.push_back({isolineColour, words("one half (50 %)"), true});
+  frame.notes = {words("Slice @ of @. Largest chance of the liver that lies here at rest: @ %.",
+                       {whole(k + 1), whole(grid.size.z()), whole(liver.largest)})};
+  frame.caption = words("All sources of uncertainty together; the textbook stiffness is exact by definition.");
   frame.mark = scene.mark;
   frame.ring_lps_mm = options.ring_lps_mm;
   frame.colourBar = bar;

@@ -22,6 +22,7 @@ struct MapOptions {
   std::string caption{};              ///< holds no patient text
   std::optional<double> margin_mm{};  ///< cut to the contours (or the liver) plus this margin; unset: the whole slice
   std::optional<Eigen::Vector3d> ring_lps_mm{};  ///< a place to mark
+  Language language = Language::English;         ///< of probabilityPicture
 };
 
 /// A stiffness map, one colour per voxel, no smoothing. barTitle names quantity and unit ("Shear modulus µ (kPa)").
@@ -37,5 +38,9 @@ Picture roiPicture(const image::ScalarVolume& mri, const roi::ContourStack& cont
 /// ‖u_mre − u_atlas‖ in mm at rest positions inside the liver, over the MRI, with the line of clinical significance.
 /// The colour bar runs to options.high, or further where a voxel of the liver is larger.
 Picture differencePicture(const RetractionScene& scene, const MapOptions& options = {.high = 10.0});
+
+/// HowSure::beyond in percent at rest positions inside the liver, over the MRI, with the line of one half. Throws
+/// BadArgument where the scene has none. Range and titles of the options are not used.
+Picture probabilityPicture(const RetractionScene& scene, const MapOptions& options = {});
 
 }  // namespace glisson::render

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "anatomy/triangle_mesh.h"
+#include "base/language.h"
 #include "image/volume.h"
 #include "render/backend.h"
+#include "render/how_sure.h"
 #include "render/picture.h"
 #include "render/rigid_bar.h"
 
@@ -38,6 +40,7 @@ struct RetractionScene {
   /// A bar that is a body of its own, drawn where it ends under either stiffness; empty: the bar goes with the tissue
   /// at its point.
   std::optional<RigidBar> bar;
+  std::optional<HowSure> sure;  ///< where it was asked for and is known
   double retractorDiameter_mm = 10.0;
   double retractorLength_mm = 80.0;
   double clinicallySignificant_mm = 5.0;
@@ -108,16 +111,17 @@ struct Camera3D {
   double elevation_deg = 0.0;
 };
 
-/// What of a retraction a 3-D picture shows: liver and vessels of both answers, or the contact pressure of a rigid bar
-/// on the surface of one.
-enum class Shown3D { Answers, PressureMre, PressureAtlas };
+/// What of a retraction a 3-D picture shows: liver and vessels of both answers, the contact pressure of a rigid bar on
+/// the surface of one, or the vessels of the first answer with what they may be off by.
+enum class Shown3D { Answers, PressureMre, PressureAtlas, HowSure };
 
 /// From behind and below, a little from the right: where a bar that hoists towards anterior touches the liver.
 inline constexpr Camera3D barCamera{205.0, -28.0};
 
 /// What a 3-D picture shows, and from where.
 struct SceneOptions3D {
-  Shown3D shown = Shown3D::Answers;  ///< pressure: BadArgument where the scene has no rigid bar with that answer
+  Shown3D shown = Shown3D::Answers;       ///< BadArgument where the scene has no rigid bar with that answer, no HowSure
+  Language language = Language::English;  ///< of HowSure
   Palette palette = Palette::RedBlue;
   View3D view = View3D::Oblique;
   std::optional<Camera3D> camera{};  ///< instead of view

@@ -112,11 +112,7 @@ double pressureScale_kPa(const RigidBar& bar) {
     std::nth_element(pressed.begin(), at, pressed.end());
     most = std::max(most, static_cast<double>(*at));
   }
-  if (!(most > 0.0) || !std::isfinite(most)) return 1.0;
-  const double ten = std::pow(10.0, std::floor(std::log10(most)));
-  for (const double step : {1.0, 2.0, 3.0, 4.0, 6.0, 8.0})
-    if (most <= step * ten) return step * ten;
-  return 10.0 * ten;
+  return scaleEnd(most);
 }
 
 double largestPressure_kPa(const RigidBar& bar) {

@@ -20,8 +20,7 @@ namespace {
 
 constexpr double grid_mm = 10.0;
 constexpr double apart_mm = 3.0;  ///< vessels that lie this far apart have fully their own colour
-constexpr Rgb restGrey{176, 184, 196}, steelGrey{205, 210, 216};
-const LegendRow gridRow{{50, 170, 95}, "grid 10 mm, labels in cm"};
+constexpr Rgb restGrey{176, 184, 196}, steelGrey{205, 210, 216}, gridGreen{50, 170, 95};
 
 Eigen::AlignedBox3d roundedOut(const Eigen::AlignedBox3d& box, double step) {
   return {Eigen::Vector3d((box.min().array() / step).floor() * step),
@@ -63,10 +62,12 @@ class Picture3D {
         stage_(renderer, options) {}
 
   void draw() {
-    if (options_.shown == Shown3D::Answers)
-      answers();
-    else
-      pressure();
+    switch (options_.shown) {
+      case Shown3D::Answers: answers(); break;
+      case Shown3D::HowSure: howSure(); break;
+      case Shown3D::PressureMre:
+      case Shown3D::PressureAtlas: pressure(); break;
+    }
     if (!scene_.valid) stage_.drawNotValidMark();
   }
 
@@ -76,6 +77,7 @@ class Picture3D {
   void tissueBar(const Motion& mre);
   void rigidBar();
   void pressure();
+  void howSure();
   void finish(std::vector<LegendRow> legend);
   void ways();
 
@@ -216,20 +218,75 @@ void Picture3D::pressure() {
       {pressureColour(0.0), "liver, retracted"},
       {steelGrey, "bar (see-through)"}};
   finish(std::move(legend));
-  if (options_.decorate) stage_.drawScale(scale_kPa, largestPressure_kPa(*scene_.bar) > scale_kPa, "Pressure (kPa)");
+  if (options_.decorate)
+    stage_.drawScale({scale_kPa, largestPressure_kPa(*scene_.bar) > scale_kPa, "Pressure (kPa)", pressureColour});
+}
+
+/// The vessels where the first answer puts them, coloured by how far off they may be, within what holds them with 95 %.
+void Picture3D::howSure() {
+  if (!scene_.sure || scene_.sure->vessel95_mm.size() != scene_.vesselSurface.vertices_lps_mm.cols() ||
+      scene_.sure->vessel95_mm.size() == 0)
+    throw BadArgument("the scene does not say how sure its vessels are: there is nothing to show");
+  const HowSure& sure = *scene_.sure;
+  const image::ScalarVolume liver = asScalar(scene_.liver);
+  const double reach_mm = 3.0 * liver.grid.spacing_mm.maxCoeff() + scene_.retractorDiameter_mm;
+  const image::DisplacementField field = extended(scene_.u_mre_mm, liver, reach_mm);
+  const InverseMap map(field, true);
+  anatomy::TriangleMesh vessels = scene_.vesselSurface;
+  std::vector<Rgb> colours;
+  const double end_mm = placeScale_mm(sure);
+  const ColourMap ramp = ColourMap::viridis();
+  for (Eigen::Index n = 0; n < vessels.vertices_lps_mm.cols(); ++n) {
+    const Eigen::Vector3d rest = vessels.vertices_lps_mm.col(n);
+    vessels.vertices_lps_mm.col(n) = rest + options_.t * map.at(rest);
+    colours.push_back(ramp.at(static_cast<double>(sure.vessel95_mm[n]) / end_mm));
+  }
+  stage_.add(colouredSurface(vessels, colours));
+  cover(box_, vessels);
+  if (sure.tube.triangles.cols() > 0 && options_.t == 1.0)
+    stage_.add(glassSurface(sure.tube, still, colour_.mre, 0.10, 0.65));
+  for (const anatomy::TriangleMesh* mesh : {&scene_.liverSurface, &sure.tube}) cover(box_, *mesh);
+  const bool exact = scene_.bar && scene_.bar->surface.triangles.cols() > 0;
+  if (exact) {
+    const anatomy::TriangleMesh moved = movedSurface(*scene_.bar, scene_.bar->mre, options_.t);
+    cover(box_, moved);
+    stage_.add(glassSurface(moved, still, restGrey, 0.03, 0.45));
+    const anatomy::TriangleMesh bar = barAfter(scene_, scene_.bar->mre, options_.t);
+    cover(box_, bar);
+    if (options_.retractor) stage_.add(steel(bar));
+  }
+  const auto words = [&](const char* text, std::initializer_list<std::string> values = {}) {
+    return phrase(text, options_.language, values);
+  };
+  std::vector<LegendRow> legend{{ramp.at(0.5), words("vessels, @ stiffness", {scene_.stiffness})},
+                                {colour_.mre, words("holds them with 95 %")},
+                                {restGrey, words("liver, retracted")}};
+  if (exact) legend.push_back({steelGrey, words("bar")});
+  finish(std::move(legend));
+  const bool beyond = static_cast<double>(sure.vessel95_mm.maxCoeff()) > end_mm;
+  if (options_.decorate)
+    stage_.drawScale({end_mm, beyond, words("95 % within (mm)"), [ramp](double fraction) { return ramp.at(fraction); },
+                      options_.language});
 }
 
 void Picture3D::finish(std::vector<LegendRow> legend) {
-  legend.push_back(gridRow);
+  const bool sure = options_.shown == Shown3D::HowSure;
+  const Language language = sure ? options_.language : Language::English;
+  legend.push_back({gridGreen, phrase("grid 10 mm, labels in cm", language)});
   box_ =
       roundedOut({box_.min() - Eigen::Vector3d::Constant(4.0), box_.max() + Eigen::Vector3d::Constant(4.0)}, grid_mm);
   stage_.aim(box_, options_.decorate, legend);
   if (options_.arrows && options_.shown == Shown3D::Answers)
     stage_.drawArrows(displacementArrows(scene_, options_.arrows_mm, mostArrows), colour_, options_.t);
-  if (scene_.bar && options_.retractor && options_.t > 0.0) ways();
+  if (scene_.bar && options_.retractor && options_.t > 0.0 && !sure) ways();
   if (!options_.decorate) return;
   stage_.drawGrid(box_);
-  stage_.drawText(scene_, std::move(legend), options_.t);
+  Stage::Words words{scene_.caption, scene_.mark, language};
+  if (sure)
+    words.caption =
+        phrase("Where the vessels lie after the retraction, and how sure that is: all sources of uncertainty together.",
+               language);
+  stage_.drawText(words, std::move(legend), options_.t);
 }
 
 }  // namespace

@@ -169,9 +169,10 @@ Layout::Layout(const Picture& image, const SliceFrame& frame)
       y0(static_cast<int>(top)) {
   double right = gap;
   if (frame.inset && !frame.insetBelow) right += frame.inset->width + gap;
-  const double wanted = std::max({legendWidth(frame.legend, font), textWidth(researchUseOnly, font),
-                                  textWidth(frame.title, 1.2 * font, true)}) +
-                        left;
+  const double wanted =
+      std::max({legendWidth(frame.legend, font), textWidth(phrase(researchUseOnly, frame.language), font),
+                textWidth(frame.title, 1.2 * font, true)}) +
+      left;
   width = static_cast<int>(std::ceil(std::max(left + image.width + bar + right, wanted)));
   const double text_px = width - left - gap;
   for (const std::string& note : frame.notes)
@@ -258,7 +259,7 @@ void drawBelow(RasterPainter& paint, const SliceFrame& frame, const Layout& at) 
   write(at.notes, light);
   write(at.mark, warning);
   write(at.caption, faint);
-  write({researchUseOnly}, warning);
+  write({phrase(researchUseOnly, frame.language)}, warning);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/language.h"
 #include "render/colour_map.h"
 #include "render/painter.h"
 #include "render/slice_plane.h"
@@ -42,6 +43,7 @@ struct SliceFrame {
   std::optional<Eigen::Vector3d> ring_lps_mm{};  ///< a place to mark, in the image and in the inset
   std::optional<SlicePlane> insetPlane{};
   std::string insetTitle{};
+  Language language = Language::English;  ///< of the line of research use
 };
 
 /// The image with its frame: orientation letters, scale bar, labels, legend, inset, caption, research-use line.

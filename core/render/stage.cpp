@@ -136,7 +136,7 @@ void Stage::drawWords(const Eigen::Vector3d& at, const Eigen::Vector3d& aside, b
   add(label3D(middle, words, mixed(colour, {255, 255, 255}, 0.35), size_px, true));
 }
 
-void Stage::drawText(const RetractionScene& scene, std::vector<LegendRow> legend, double t) {
+void Stage::drawText(const Words& words, std::vector<LegendRow> legend, double t) {
   const double lineHeight = 1.55 * font_px_ / height_, side = 1.1 * font_px_;
   double y = 1.0 - 1.9 * font_px_ / height_;
   const double x = font_px_ / width_;
@@ -150,34 +150,34 @@ void Stage::drawText(const RetractionScene& scene, std::vector<LegendRow> legend
   if (t < 1.0)
     add(screenText(x, y, std::to_string(std::lround(100.0 * t)) + " % of the retraction", colours::light, font_px_,
                    false));
-  std::vector<std::string> lines = wrapText(scene.caption, font_px_, width_ - 2.0 * font_px_);
+  std::vector<std::string> lines = wrapText(words.caption, font_px_, width_ - 2.0 * font_px_);
   double below = 0.7 * font_px_ / height_;
-  add(screenText(x, below, researchUseOnly, colours::warning, font_px_, false));
+  add(screenText(x, below, phrase(researchUseOnly, words.language), colours::warning, font_px_, false));
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
     below += lineHeight;
     add(screenText(x, below, *line, colours::faint, font_px_, false));
   }
-  if (scene.mark.empty()) return;
-  const std::vector<std::string> mark = wrapText(scene.mark, font_px_, width_ - 2.0 * font_px_);
+  if (words.mark.empty()) return;
+  const std::vector<std::string> mark = wrapText(words.mark, font_px_, width_ - 2.0 * font_px_);
   for (auto line = mark.rbegin(); line != mark.rend(); ++line) {
     below += lineHeight;
     add(screenText(x, below, *line, colours::warning, font_px_, false));
   }
 }
 
-void Stage::drawScale(double end, bool beyond, const std::string& title) {
+void Stage::drawScale(const ColourScale& scale) {
   constexpr int steps = 96;
   const double left = 1.0 - 6.5 * font_px_ / width_, wide = 1.3 * font_px_ / width_, low = 0.22, high = 0.78;
   for (int n = 0; n < steps; ++n)
     add(screenSwatch(left, low + (high - low) * n / steps, wide, 1.04 * (high - low) / steps,
-                     pressureColour((n + 0.5) / steps)));
+                     scale.colour((n + 0.5) / steps)));
   for (int n = 0; n <= 4; ++n) {
     char number[24];
-    std::snprintf(number, sizeof number, "%s%.4g", n == 4 && beyond ? "≥ " : "", 0.25 * n * end);
-    add(screenText(left + 1.6 * wide, low + 0.25 * n * (high - low) - 0.4 * font_px_ / height_, number, colours::light,
-                   font_px_, false));
+    std::snprintf(number, sizeof number, "%s%.4g", n == 4 && scale.beyond ? "≥ " : "", 0.25 * n * scale.end);
+    add(screenText(left + 1.6 * wide, low + 0.25 * n * (high - low) - 0.4 * font_px_ / height_,
+                   inLanguage(number, scale.language), colours::light, font_px_, false));
   }
-  add(screenText(left - 0.5 * textWidth(title, font_px_) / width_, high + 1.0 * font_px_ / height_, title,
+  add(screenText(left - 0.5 * textWidth(scale.title, font_px_) / width_, high + 1.0 * font_px_ / height_, scale.title,
                  colours::light, font_px_, true));
 }
 

@@ -19,6 +19,7 @@ struct Case {
   const std::vector<Eigen::Vector3d>& landmarks_mm;
   std::optional<Elastogram> elastogram;  ///< empty: the stiffness was not measured, and is taken as exact
   std::vector<FurtherErrors> further;    ///< estimates of other steps
+  std::vector<std::size_t> tips{};       ///< landmarks at the ends of vessels, by their numbers
 };
 
 /// The change of one standard deviation of a source, or of one of its independent parts.

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "mechanics/measures.h"
@@ -55,6 +56,19 @@ double OneStiffness::surface_m2() const {
 Eigen::Vector3d OneStiffness::along() const {
   const std::vector<Eigen::Vector3d>& line = equilibrium_->bar().centreline_m;
   return (line.back() - line.front()).normalized();
+}
+
+Eigen::Matrix3d OneStiffness::toLps() const {
+  Eigen::Matrix3d axes;
+  for (int a = 0; a < 3; ++a) axes.col(a) = body_.vectorToLps(Eigen::Vector3d::Unit(a));
+  return axes;
+}
+
+image::ScalarVolume OneStiffness::onGrid(const std::vector<float>& perCell) const {
+  image::ScalarVolume volume(retracted_.model.youngs_kPa.grid, std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t cell = 0; cell < perCell.size(); ++cell)
+    volume.at(body_.mesh().cellOf(static_cast<int>(cell))) = perCell[cell];
+  return volume;
 }
 
 Places OneStiffness::places(const std::vector<Eigen::Vector3d>& landmarks_mm, const Retracted* other) const {

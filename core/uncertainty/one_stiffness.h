@@ -52,6 +52,10 @@ class OneStiffness {
   double surface_m2() const;
   /// Along the bar, and across bar and hoist, unit, grid axes.
   Eigen::Vector3d along() const;
+  /// Turns a vector from grid axes to LPS.
+  Eigen::Matrix3d toLps() const;
+  /// Values of the cells, in the order of the places, on the model's grid; not a number outside the body.
+  image::ScalarVolume onGrid(const std::vector<float>& perCell) const;
 
   /// Landmarks in the body and samples under the bar; other: the second retraction, or null.
   Places places(const std::vector<Eigen::Vector3d>& landmarks_mm, const Retracted* other) const;

@@ -38,6 +38,7 @@ class Propagation {
         columns_.begin(), columns_.end(), [](const Column& c) { return c.kind == SourceKind::ElastogramNoise; }));
     for (const Column& c : columns_) first_.kind.push_back(c.kind);
     out_.fields = static_cast<int>(first_.fields);
+    first_.toLps = measured_->toLps();
     first_.measured = measured_->displacements(first_.places);
     first_.travel_mm = case_.measured.result.contact->travel_mm;
     if (textbook_) {
@@ -52,6 +53,8 @@ class Propagation {
     const std::vector<FurtherErrors> further = furtherErrors();
     progress_.report(0.95, "draws of all sources");
     out_.spread = sampled(first_, further, options_.draws, seed_ + 77);
+    if (textbook_) out_.beyond = measured_->onGrid(out_.spread.cellBeyond);
+    out_.tip = tipOf(first_, out_.spread, case_.tips);
     double noise = case_.elastogram ? case_.elastogram->noise : 0.0;
     for (const SourceSpread& s : out_.spread.sources) out_.words.push_back(wordsOf(s.kind, options_.spreads, noise));
     out_.known = true;

@@ -12,6 +12,7 @@
 #include "uncertainty/one_stiffness.h"
 #include "uncertainty/sampling.h"
 #include "uncertainty/sources.h"
+#include "uncertainty/surgeon.h"
 
 namespace glisson::uncertainty {
 
@@ -34,6 +35,10 @@ struct Uncertainty {
   std::optional<double> missedShare;  ///< Σ missed² over Σ change² of the checks, root; empty where none has an answer
   /// Of the difference at the retractor by the measured liver's stiffness; without a comparison of the bar's travel.
   std::optional<Leverage> leverage;
+  std::optional<VesselTip> tip;  ///< where vessels end in the body
+  /// Probability that the difference is 5 mm or more, on the model's grid, not a number outside the body; with a
+  /// comparison.
+  std::optional<image::ScalarVolume> beyond;
   int fields = 0, solves = 0, iterations = 0;
   Diagnostics diagnostics;
 };

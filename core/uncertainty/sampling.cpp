@@ -16,6 +16,7 @@ using Eigen::Index;
 constexpr std::size_t chunk = 128;   ///< places
 constexpr int drawsOverCells = 400;  ///< of which the mean over the cells is made
 constexpr int drawsOfSource = 500;
+constexpr int drawsOfMap = 1000;  ///< of which the probability at every cell is made: ± .016 at one half
 
 double squared(double v) {
   return v * v;
@@ -44,6 +45,11 @@ Interval aboutLength(Eigen::VectorXd v, double here) {
 double shareBeyond(const Eigen::VectorXd& v) {
   return static_cast<double>((v.array() >= defaults::clinicallySignificant.mm()).count()) /
          static_cast<double>(v.size());
+}
+
+/// The middle 95 % of figures between two values, joined with the figure at hand.
+Interval withHere(const Interval& middle, double here) {
+  return {std::min(middle.low, here), std::max(middle.high, here)};
 }
 
 /// Standard normal draws, columns of the gain by draws, the fields' part scaled as Student's t; and further ones.
@@ -189,6 +195,42 @@ Eigen::VectorXd shifted(Eigen::VectorXd figure, const std::vector<FurtherErrors>
   return figure;
 }
 
+/// What the landmarks' differences are together, draw by draw: chunks of them, added up.
+struct Together {
+  Eigen::MatrixXf largest, sum, beyond;  ///< draws × chunks
+  Together(Index draws, std::size_t chunks)
+      : largest(Eigen::MatrixXf::Zero(draws, static_cast<Index>(chunks))), sum(largest), beyond(largest) {}
+  void add(std::size_t which, const Eigen::MatrixXf& lengths) {
+    const auto at = static_cast<Index>(which);
+    largest.col(at) = lengths.colwise().maxCoeff().transpose();
+    sum.col(at) = lengths.colwise().sum().transpose();
+    const auto line = static_cast<float>(defaults::clinicallySignificant.mm());
+    beyond.col(at) = (lengths.array() >= line).cast<float>().colwise().sum().transpose();
+  }
+};
+
+VesselHeadline vesselsOf(const Lengths& lengths, const Together& together, const std::vector<LandmarkSpread>& each) {
+  VesselHeadline h;
+  const auto count = static_cast<double>(each.size());
+  double mean = 0, beyond = 0;
+  std::size_t furthest = 0;
+  for (std::size_t l = 0; l < each.size(); ++l) {
+    const double here = lengths.atBase(l);
+    mean += here / count;
+    beyond += here >= defaults::clinicallySignificant.mm() ? 1 / count : 0.0;
+    if (here <= h.furthest_mm) continue;
+    h.furthest_mm = here;
+    furthest = l;
+  }
+  h.mean_mm = aboutLength(together.sum.rowwise().sum().cast<double>() / count, mean);
+  h.max_mm = aboutLength(together.largest.rowwise().maxCoeff().cast<double>(), h.furthest_mm);
+  h.beyond = withHere(middleOf(together.beyond.rowwise().sum().cast<double>() / count), beyond);
+  h.furthest = each[furthest].landmark;
+  h.furthest95_mm = each[furthest].difference95_mm.value();
+  h.furthestBeyond = each[furthest].beyond.value();
+  return h;
+}
+
 void addLandmarks(const FirstOrder& first, const std::vector<FurtherErrors>& further, const Lengths* lengths,
                   const Draws& draws, Spread& out) {
   const std::size_t count = first.places.landmark.size();
@@ -200,15 +242,20 @@ void addLandmarks(const FirstOrder& first, const std::vector<FurtherErrors>& fur
   for (std::size_t l = 0; l < count; ++l) {
     out.landmarks[l].landmark = first.places.landmark[l];
     out.landmarks[l].sd_mm = total(sd[static_cast<Index>(l)]);
+    const Eigen::MatrixXd gain =
+        first.toLps * first.measuredGain.middleRows(static_cast<Index>(3 * l), 3).cast<double>();
+    // Further errors have no direction of their own.
+    out.landmarks[l].place_mm2 = gain * gain.transpose() + (place_mm2 + place * squared(sd[static_cast<Index>(l)])) /
+                                                               3 * Eigen::Matrix3d::Identity();
   }
   if (lengths == nullptr) return;
   const Eigen::VectorXd other = lengthsOfGain(first.textbookGain, count);
   const Shift shift = shiftOf(further, draws);
   const std::size_t chunks = (count + chunk - 1) / chunk;
-  Eigen::MatrixXf largest = Eigen::MatrixXf::Zero(draws.z.cols(), static_cast<Index>(std::max<std::size_t>(chunks, 1)));
+  Together together(draws.z.cols(), chunks);
   parallelChunks(count, chunk, [&](std::size_t begin, std::size_t end) {
     const Eigen::MatrixXf d = lengths->of(begin, end, draws.z, &shift);
-    largest.col(static_cast<Index>(begin / chunk)) = d.colwise().maxCoeff().transpose();
+    together.add(begin / chunk, d);
     for (std::size_t l = begin; l < end; ++l) {
       const Eigen::VectorXd one = d.row(static_cast<Index>(l - begin)).transpose().cast<double>();
       LandmarkSpread& s = out.landmarks[l];
@@ -218,9 +265,45 @@ void addLandmarks(const FirstOrder& first, const std::vector<FurtherErrors>& fur
       s.beyond = shareBeyond(one);
     }
   });
-  double here = 0;
-  for (std::size_t l = 0; l < count; ++l) here = std::max(here, lengths->atBase(l));
-  if (count > 0) out.headline->vessels_max_mm = aboutLength(largest.rowwise().maxCoeff().cast<double>(), here);
+  if (count > 0) out.headline->vessels = vesselsOf(*lengths, together, out.landmarks);
+}
+
+/// What each source alone does to the difference at one landmark, by its place among those that are followed.
+void addFurthest(const FirstOrder& first, const std::vector<FurtherErrors>& further, const Lengths& lengths,
+                 const Draws& draws, std::size_t landmark, std::vector<SourceSpread>& sources) {
+  const auto ofOne = [&](const Eigen::MatrixXf& z, const Shift* shift) {
+    return sdOf(lengths.of(landmark, landmark + 1, z, shift).row(0).transpose().cast<double>());
+  };
+  const std::size_t own = sources.size() - further.size();
+  for (std::size_t s = 0; s < own; ++s)
+    sources[s].furthest_sd_mm = ofOne(only(first, sources[s].kind, draws.z), nullptr);
+  const Eigen::MatrixXf none = Eigen::MatrixXf::Zero(draws.z.rows(), draws.z.cols());
+  for (std::size_t e = 0; e < further.size(); ++e) {
+    std::vector<FurtherErrors> alone(further.size());
+    alone[e] = further[e];
+    const Shift shift = shiftOf(alone, draws);
+    sources[own + e].furthest_sd_mm = ofOne(none, &shift);
+  }
+}
+
+/// The probability of 5 mm at every cell, of all sources together.
+std::vector<float> beyondPerCell(const FirstOrder& first, const std::vector<FurtherErrors>& further,
+                                 const Lengths& lengths, const Draws& draws) {
+  const std::size_t begin = first.places.landmark.size() + first.places.sample.size();
+  const Index few = std::min<Index>(drawsOfMap, draws.z.cols());
+  const Eigen::MatrixXf z = draws.z.leftCols(few);
+  Shift shift = shiftOf(further, draws);
+  shift.everywhere.conservativeResize(3, few);
+  shift.ofSpread.conservativeResize(3, few);
+  const auto line = static_cast<float>(defaults::clinicallySignificant.mm());
+  std::vector<float> beyond(first.places.cells);
+  parallelChunks(beyond.size(), chunk, [&](std::size_t from, std::size_t to) {
+    const Eigen::MatrixXf l = lengths.of(begin + from, begin + to, z, &shift);
+    for (Index c = 0; c < l.rows(); ++c)
+      beyond[from + static_cast<std::size_t>(c)] =
+          static_cast<float>((l.row(c).array() >= line).count()) / static_cast<float>(few);
+  });
+  return beyond;
 }
 
 }  // namespace
@@ -256,12 +339,18 @@ Spread sampled(const FirstOrder& first, const std::vector<FurtherErrors>& furthe
     h.at_retractor_mm = aboutLength(there, here.at_retractor_mm);
     h.beyond = shareBeyond(there);
     const Eigen::MatrixXf few = draws.z.leftCols(std::min<Index>(drawsOverCells, draws.z.cols()));
-    h.mean_mm = aboutLength(
-        shifted(meanOf(first, *lengths, few), further, draws, &FurtherErrors::mean_mm, 1).cwiseAbs(), here.mean_mm);
+    const Eigen::VectorXd mean =
+        shifted(meanOf(first, *lengths, few), further, draws, &FurtherErrors::mean_mm, 1).cwiseAbs();
+    h.mean_mm = aboutLength(mean, here.mean_mm);
+    h.withinVoxel =
+        static_cast<double>((mean.array() <= defaults::mriVoxel.mm()).count()) / static_cast<double>(mean.size());
     const Eigen::VectorXd travel =
         ((first.travelGain - first.textbookTravelGain).transpose() * draws.z.cast<double>()).transpose().array() +
         (first.travel_mm - first.textbookTravel_mm);
-    h.travel_mm = middleOf(shifted(travel, further, draws, &FurtherErrors::travel_mm, 2));
+    const Eigen::VectorXd travelled = shifted(travel, further, draws, &FurtherErrors::travel_mm, 2);
+    h.travel_mm = middleOf(travelled);
+    h.travelBeyond = shareBeyond(travelled.cwiseAbs());
+    out.cellBeyond = beyondPerCell(first, further, *lengths, draws);
   }
   addLandmarks(first, further, lengths ? &*lengths : nullptr, draws, out);
   out.sources = sourcesOf(first, lengths ? &*lengths : nullptr, draws.z);
@@ -272,7 +361,12 @@ Spread sampled(const FirstOrder& first, const std::vector<FurtherErrors>& furthe
         static_cast<double>(first.measuredGain.topRows(3 * landmarks).squaredNorm()) / static_cast<double>(landmarks);
   for (const FurtherErrors& f : further) {
     const double vessels_mm = std::sqrt(squared(f.place_mm) + squared(f.place) * spread_mm2);
-    out.sources.push_back({f.kind, lengths ? f.at_retractor_mm : vessels_mm, f.mean_mm, f.travel_mm, vessels_mm});
+    out.sources.push_back({f.kind, lengths ? f.at_retractor_mm : vessels_mm, f.mean_mm, f.travel_mm, vessels_mm, 0.0});
+  }
+  if (lengths && out.headline->vessels) {
+    const auto& all = first.places.landmark;
+    const auto at = std::find(all.begin(), all.end(), out.headline->vessels->furthest);
+    addFurthest(first, further, *lengths, draws, static_cast<std::size_t>(at - all.begin()), out.sources);
   }
   return out;
 }

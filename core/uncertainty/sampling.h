@@ -23,14 +23,27 @@ struct LandmarkSpread {
   std::optional<double> textbook_sd_mm;    ///< the same, textbook stiffness
   std::optional<double> difference_sd_mm;  ///< of the distance between the two
   std::optional<Interval> difference95_mm;
-  std::optional<double> beyond;  ///< probability that the distance is 5 mm or more
+  std::optional<double> beyond;                         ///< probability that the distance is 5 mm or more
+  Eigen::Matrix3d place_mm2 = Eigen::Matrix3d::Zero();  ///< covariance of the error of its place, LPS; trace: sd²
+};
+
+/// The figures of the difference of all landmarks together.
+struct VesselHeadline {
+  Interval mean_mm, max_mm;
+  Interval beyond;              ///< share of the landmarks that lie 5 mm or more apart
+  std::size_t furthest = 0;     ///< number of the landmark that lies furthest apart
+  double furthest_mm = 0.0;     ///< how far
+  Interval furthest95_mm;       ///< of that landmark
+  double furthestBeyond = 0.0;  ///< probability that it is 5 mm or more
 };
 
 /// The figures of the difference.
 struct Headline {
   Interval mean_mm, at_retractor_mm, travel_mm;
-  std::optional<Interval> vessels_max_mm;  ///< where there are landmarks
-  double beyond = 0.0;                     ///< probability that the difference at the retractor is 5 mm or more
+  std::optional<VesselHeadline> vessels;  ///< where there are landmarks
+  double beyond = 0.0;                    ///< probability that the difference at the retractor is 5 mm or more
+  double travelBeyond = 0.0;              ///< the same of the travel of the bar, either way
+  double withinVoxel = 0.0;               ///< probability that the mean difference is at most one voxel of the MRI
 };
 
 /// One source's share: standard deviations with the others left out.
@@ -39,7 +52,8 @@ struct SourceSpread {
   double sd_mm = 0.0;         ///< of the difference at the retractor; without a comparison of the vessels' places (rms)
   double mean_sd_mm = 0.0;    ///< of the mean difference
   double travel_sd_mm = 0.0;  ///< of the bar's travel (difference, or measured)
-  double vessels_sd_mm = 0.0;  ///< rms over the landmarks: error of their places, measured stiffness
+  double vessels_sd_mm = 0.0;   ///< rms over the landmarks: error of their places, measured stiffness
+  double furthest_sd_mm = 0.0;  ///< of the difference at VesselHeadline::furthest; 0 without a comparison
 };
 
 /// Displacements of the places to first order: base + gain z, z standard normal. mm, grid axes.
@@ -50,7 +64,8 @@ struct FirstOrder {
   Eigen::VectorXf measured, textbook;          ///< 3 × places; textbook empty: no comparison
   Eigen::MatrixXf measuredGain, textbookGain;  ///< 3 × places by columns
   double travel_mm = 0.0, textbookTravel_mm = 0.0;
-  Eigen::VectorXd travelGain, textbookTravelGain;  ///< mm per column
+  Eigen::VectorXd travelGain, textbookTravelGain;       ///< mm per column
+  Eigen::Matrix3d toLps = Eigen::Matrix3d::Identity();  ///< of a vector in grid axes
 };
 
 /// Intervals of the landmarks and figures, and what drives them.
@@ -58,6 +73,7 @@ struct Spread {
   std::vector<LandmarkSpread> landmarks;
   std::optional<Headline> headline;
   std::vector<SourceSpread> sources;
+  std::vector<float> cellBeyond;  ///< per cell: probability that the difference is 5 mm or more; with a comparison
 };
 
 /// Figures of the difference at displacements of the places (3 × places, mm).

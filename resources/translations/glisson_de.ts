@@ -269,6 +269,32 @@
             <source>No warning: the large deformation converged.</source>
             <translation>Keine Warnung: Die große Verformung ist konvergiert.</translation>
         </message>
+        <message>
+            <source>How sure the vessels are</source>
+            <translation>Wie sicher die Gefäße sind</translation>
+        </message>
+        <message>
+            <source>Chance of 5 mm</source>
+            <translation>Wahrscheinlichkeit von 5 mm</translation>
+        </message>
+        <message>
+            <source>What it depends on</source>
+            <translation>Wovon es abhängt</translation>
+        </message>
+        <message>
+            <source>After a run that says how sure it is (Model): what the difference at the retractor depends on.</source>
+            <translation>Nach einer Rechnung, die sagt, wie sicher sie ist (Modell): wovon der Unterschied am Retraktor abhängt.</translation>
+        </message>
+        <message>
+            <source>95 %: %1; chance of 5 mm or more: %2</source>
+            <translation>95 %: %1; Wahrscheinlichkeit von 5 mm oder mehr: %2</translation>
+        </message>
+        <message>
+            <source>
+95 %: mean %1, largest %2; %3 to %4 % at 5 mm or more</source>
+            <translation>
+95 %: Mittel %1, größter %2; %3 bis %4 % mit 5 mm oder mehr</translation>
+        </message>
     </context>
     <context>
         <name>glisson::panels::ImageLayers</name>
@@ -1599,6 +1625,14 @@
         <message>
             <source>left out</source>
             <translation>ausgelassen</translation>
+        </message>
+        <message>
+            <source>Say how sure</source>
+            <translation>Sagen, wie sicher</translation>
+        </message>
+        <message>
+            <source>Intervals, the chance of 5 mm and what drives them, under a rigid bar; takes about four times as long</source>
+            <translation>Intervalle, die Wahrscheinlichkeit von 5 mm und was sie bestimmt, unter einem starren Stab; dauert etwa viermal so lang</translation>
         </message>
     </context>
     <context>
@@ -4508,6 +4542,10 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>done</source>
             <translation>fertig</translation>
+        </message>
+        <message>
+            <source>drawing how sure the answer is</source>
+            <translation>Bilder der Sicherheit zeichnen</translation>
         </message>
         <message>
             <source>de-identifying</source>

@@ -115,7 +115,7 @@ void drawsOf(const pipeline::Scene& scene, const pipeline::Inputs& inputs, const
       tally.landmarks.add(*r.uncertainty->spread.landmarks[l].difference95_mm, lengthAt(apart, l));
       largest = std::max(largest, lengthAt(apart, l));
     }
-    tally.vesselsMax.add(*h.vessels_max_mm, largest);
+    tally.vesselsMax.add(h.vessels->max_mm, largest);
     tally.retractor.add(h.at_retractor_mm, f.at_retractor_mm);
     tally.mean.add(h.mean_mm, f.mean_mm);
     tally.travel.add(h.travel_mm, *r.difference->travel_mm + travel_mm - otherTravel_mm);

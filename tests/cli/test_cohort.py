@@ -134,5 +134,34 @@ class Cohort(unittest.TestCase):
         self.assertIn("--shard", cli("cohort", self.patients, "--shard", "3", "--output", empty, code=3).stderr)
 
 
+class HowSure(unittest.TestCase):
+    def test_shares_have_intervals_where_the_patients_say_how_sure_they_are(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            coarse_patients(folder / "patients", 2)
+            for scene_file in (folder / "patients").glob("*/scene.json"):
+                scene = json.loads(scene_file.read_text())
+                scene["uncertainty"] = {"fields": 4, "checks": 0}
+                scene_file.write_text(json.dumps(scene))
+            r = cli_json("cohort", folder / "patients", "--output", folder / "out", "--no-sensitivity")
+            done = [c for c in r["cases"] if c["probability_beyond_5mm"] is not None]
+            self.assertEqual(len(done), 2)
+            for c in done:
+                self.assertLess(c["at_retractor_low_mm"], c["at_retractor_mm"])
+                self.assertGreater(c["at_retractor_high_mm"], c["at_retractor_mm"])
+            sure = r["retraction"]["how_sure"]
+            self.assertEqual(sure["patients"], 2)
+            for share, probability in (("fraction_clinically_significant", "probability_beyond_5mm"),
+                                       ("fraction_travel_clinically_significant", "probability_travel_beyond_5mm"),
+                                       ("fraction_within_voxel", "probability_within_voxel")):
+                p, q = (c[probability] for c in done)
+                self.assertAlmostEqual(sure[share]["expected"], (p + q) / 2)
+                of_count = [(1 - p) * (1 - q), p * (1 - q) + q * (1 - p), p * q]
+                quantile = lambda s: next(k for k in range(3) if sum(of_count[:k + 1]) >= s or k == 2) / 2
+                self.assertEqual(sure[share]["interval95"], [quantile(0.025), quantile(0.975)])
+            self.assertIn("sum of their probabilities", (folder / "out/report.html").read_text())
+            self.assertIn("probability_beyond_5mm", (folder / "out/patients.csv").read_text())
+
+
 if __name__ == "__main__":
     unittest.main()

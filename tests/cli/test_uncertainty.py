@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How sure: intervals, probability and sources of a run, in JSON, vessels.csv and the report; nothing of them unasked."""
 import csv
+import hashlib
 import json
 import math
 import pathlib
@@ -42,6 +43,45 @@ class Uncertainty(SceneTest):
         self.assertEqual(written["uncertainty"]["checks"], 2)
         again = self.run_scene({**COMPARED, "outputs": ["report"], "uncertainty": written["uncertainty"]})
         self.assertEqual(again["difference"]["interval95"], d["interval95"])
+
+    def test_it_is_shown_in_pictures_and_beside_every_figure(self):
+        r = self.run_scene({**COMPARED, "outputs": ["report"]}, "--uncertainty")
+        step = next(s for s in r["plan"] if s["step"] == "uncertainty-pictures")
+        self.assertTrue(step["needed"])
+        # A box has no vessels: neither their chart nor their 3-D picture.
+        shown = {f for f in r["files"] if f.startswith(("tornado", "probability", "how-sure"))}
+        self.assertEqual(shown, {"tornado-retractor.png", "probability-map.png"})
+        report = (self.folder / "out/report.html").read_text()
+        low, high = r["difference"]["interval95"]["at_retractor_mm"]
+        self.assertIn(f"(95 %: {low:.3g} to {high:.3g} mm)", report)
+        self.assertIn(r["uncertainty"]["for_surgeons"]["en"], report)
+        self.assertIn("mit 95 % Wahrscheinlichkeit", r["uncertainty"]["for_surgeons"]["de"])
+        self.assertEqual(r["language"], "en")
+
+    def test_without_it_there_is_no_picture_of_it(self):
+        r = self.run_scene({**COMPARED, "outputs": ["report"]})
+        step = next(s for s in r["plan"] if s["step"] == "uncertainty-pictures")
+        self.assertFalse(step["needed"])
+        self.assertIn("does not say how sure", step["why"])
+        self.assertFalse([f for f in r["files"] if f.startswith(("tornado", "probability", "how-sure"))])
+
+    def test_german_pictures_come_from_run_render_and_replay_alike(self):
+        scene = {**COMPARED, "outputs": ["report"], "uncertainty": {"checks": 0}}
+        self.run_scene(scene)
+        digest = lambda folder, name: hashlib.sha256((folder / name).read_bytes()).hexdigest()
+        names = ("tornado-retractor.png", "probability-map.png")
+        english = {n: digest(self.folder / "out", n) for n in names}
+        drawn = {f["file"]: f["sha256"] for f in cli_json("render", self.folder / "out", "--language", "de", "--output",
+                                                          self.folder / "de")["files"]}
+        r = self.run_scene(scene, "--language", "de")
+        self.assertEqual(r["language"], "de")
+        for n in names:
+            self.assertNotEqual(drawn[n], english[n], n)
+            self.assertEqual(drawn[n], digest(self.folder / "out", n), n)
+        self.assertIn(r["uncertainty"]["for_surgeons"]["de"], (self.folder / "out/report.html").read_text())
+        again = cli_json("replay", self.folder / "out")
+        self.assertTrue(again["numbers_identical"])
+        self.assertTrue(all(f["identical"] for f in again["outputs"]), again["outputs"])
 
     def test_what_the_stiffness_does_is_what_stiffer_and_softer_blocks_do(self):
         u = self.run_scene({**COMPARED, "uncertainty": {"checks": 0}})["uncertainty"]
@@ -86,7 +126,7 @@ class Patient(unittest.TestCase):
             path = folder / "patient-001/scene.json"
             scene = json.loads(path.read_text())
             scene["geometry"]["cell_mm"] = 8
-            scene["outputs"] = ["vessels"]
+            scene["outputs"] = ["vessels", "report"]
             scene["uncertainty"] = {"fields": 8, "checks": 1}
             path.write_text(json.dumps(scene))
             r = cli_json("run", path, "--output", folder / "out")
@@ -95,7 +135,20 @@ class Patient(unittest.TestCase):
                 self.fail(u["why"])
             self.assertEqual([s["name"] for s in u["sources"]][:3],
                              ["elastogram-noise", "elastogram-repeatability", "outline"])
-            self.assertIn("vessels_max_mm", r["difference"]["interval95"])
+            for key in ("vessels_mean_mm", "vessels_max_mm"):
+                low, high = r["difference"]["interval95"][key]
+                figure = r["difference"]["vessels"]["max_mm" if "max" in key else "mean_mm"]
+                self.assertTrue(low <= figure <= high, key)
+            low, high = r["difference"]["interval95"]["vessels_fraction_beyond_5mm"]
+            self.assertTrue(0 <= low <= r["difference"]["vessels"]["fraction_beyond_5mm"] <= high <= 1)
+            for name in ("tornado-retractor.png", "tornado-vessel.png", "probability-map.png"):
+                self.assertIn(name, r["files"])
+            tip = u["vessel_tip"]
+            self.assertTrue(0 < tip["within95_mm"] < 100)
+            for number in (tip["moves_mm"], tip["difference"]["mm"]):
+                written = f"{number:.1f}" if number < 9.95 else f"{number:.0f}"
+                self.assertIn(written + " mm", u["for_surgeons"]["en"])
+                self.assertIn(written.replace(".", ",") + " mm", u["for_surgeons"]["de"])
             with open(folder / "out/vessels.csv") as f:
                 rows = [row for row in csv.DictReader(f) if row["difference_mm"]]
             self.assertGreater(len(rows), 100)
@@ -107,6 +160,11 @@ class Patient(unittest.TestCase):
                 low, high = float(row["difference_low_mm"]), float(row["difference_high_mm"])
                 self.assertLessEqual(low, high)
                 inside += low <= float(row["difference_mm"]) <= high
+                if row["landmark"] == str(tip["landmark"]):
+                    self.assertAlmostEqual(float(row["difference_mm"]), tip["difference"]["mm"], delta=1e-3)
+                    self.assertAlmostEqual(float(row["probability_beyond_5mm"]), tip["difference"]["probability_beyond_5mm"])
+                    # Of one direction to all alike.
+                    self.assertTrue(1.5 * float(row["sd_mm"]) < tip["within95_mm"] < 2.1 * float(row["sd_mm"]))
             self.assertGreater(inside, 0.9 * len(rows))
 
 

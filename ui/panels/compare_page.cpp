@@ -7,11 +7,13 @@
 #include <QSlider>
 #include <QSplitter>
 #include <QStackedWidget>
+#include <QStandardItemModel>
 #include <QTreeWidget>
 #include <cmath>
 
 #include "panels/contact_table.h"
 #include "panels/form.h"
+#include "panels/language.h"
 #include "panels/method_chart.h"
 #include "panels/palette_choice.h"
 #include "pipeline/pictures.h"
@@ -28,6 +30,17 @@ QString mm(double value) {
   return QString::number(value, 'f', 2) + QStringLiteral("\u00a0mm");  // number and unit on one line
 }
 
+/// The slice of an overlay as a map: of the difference, or of the chance of 5 mm. ring: a place to mark, or null.
+render::Picture mapOf(const render::RetractionScene& scene, const render::SliceOverlayOptions& overlay, bool chance,
+                      const Eigen::Vector3d* ring) {
+  render::MapOptions map{.high = 10.0};
+  map.language = spoken();
+  map.slice = overlay.slice;
+  map.margin_mm = overlay.margin_mm;
+  if (ring != nullptr) map.ring_lps_mm = *ring;
+  return chance ? render::probabilityPicture(scene, map) : render::differencePicture(scene, map);
+}
+
 }  // namespace
 
 ComparePage::ComparePage(session::Session& session, QWidget* parent)
@@ -36,7 +49,8 @@ ComparePage::ComparePage(session::Session& session, QWidget* parent)
       overlay_(new views::PictureView),
       scene_(new views::SceneView),
       boxes_(new views::PictureView),
-      forces_(new views::PictureView) {
+      forces_(new views::PictureView),
+      sources_(new views::PictureView) {
   overlay_->setObjectName(QStringLiteral("overlayView"));
   overlay_->setHint(tr("Run the retraction to compare MRE with the atlas."));
   scene_->setObjectName(QStringLiteral("compareScene"));
@@ -44,11 +58,13 @@ ComparePage::ComparePage(session::Session& session, QWidget* parent)
   boxes_->setObjectName(QStringLiteral("boxPlotView"));
   boxes_->setHint(tr("The box plot of the differences appears here."));
   forces_->setObjectName(QStringLiteral("forceView"));
+  sources_->setObjectName(QStringLiteral("sourcesView"));
   beside_ = new QStackedWidget;
   beside_->addWidget(scene_);
   beside_->addWidget(boxes_);
   beside_->addWidget(new MethodChart(session_));
   beside_->addWidget(forces_);
+  beside_->addWidget(sources_);
   auto* left = new QWidget;
   auto* column = new QVBoxLayout(left);
   column->setContentsMargins(0, 0, 0, 0);
@@ -154,30 +170,30 @@ QWidget* ComparePage::makeDisplay() {
   auto* held = new QWidget;
   auto* form = new QFormLayout(held);
   form->setContentsMargins(0, 0, 0, 0);
-  colours_ = new QComboBox;
-  colours_->setObjectName(QStringLiteral("paletteChoice"));
-  colours_->addItems({tr("Red / blue"), tr("Orange / blue (colour-blind)")});
+  const auto choice = [form](const char* name, const QString& label, const QStringList& items) {
+    auto* box = new QComboBox;
+    box->setObjectName(QLatin1String(name));
+    box->addItems(items);
+    form->addRow(label, box);
+    return box;
+  };
+  colours_ = choice("paletteChoice", tr("Colours"), {tr("Red / blue"), tr("Orange / blue (colour-blind)")});
   colours_->setCurrentIndex(chosenPalette() == render::Palette::ColourBlind ? 1 : 0);
   scene_->setPalette3D(palette_());
-  form->addRow(tr("Colours"), colours_);
+  scene_->setLanguage(spoken());
   view_ = new QComboBox;
   view_->setObjectName(QStringLiteral("cameraChoice"));
   view_->addItem(tr("Oblique"), static_cast<int>(render::View3D::Oblique));
   view_->addItem(tr("From the front"), static_cast<int>(render::View3D::Anterior));
   view_->addItem(tr("From below"), static_cast<int>(render::View3D::Inferior));
   form->addRow(tr("Camera"), view_);
-  shown_ = new QComboBox;
-  shown_->setObjectName(QStringLiteral("shownChoice"));
-  shown_->addItems({tr("Both answers"), tr("Contact pressure, MRE"), tr("Contact pressure, atlas")});
-  form->addRow(tr("3-D shows"), shown_);
-  what_ = new QComboBox;
-  what_->setObjectName(QStringLiteral("sliceChoice"));
-  what_->addItems({tr("Overlay"), tr("Difference in mm")});
-  form->addRow(tr("Slice"), what_);
-  chart_ = new QComboBox;
-  chart_->setObjectName(QStringLiteral("besideChoice"));
-  chart_->addItems({tr("3-D"), tr("Box plot"), tr("Error against run time"), tr("Force against travel")});
-  form->addRow(tr("Beside it"), chart_);
+  shown_ = choice(
+      "shownChoice", tr("3-D shows"),
+      {tr("Both answers"), tr("Contact pressure, MRE"), tr("Contact pressure, atlas"), tr("How sure the vessels are")});
+  what_ = choice("sliceChoice", tr("Slice"), {tr("Overlay"), tr("Difference in mm"), tr("Chance of 5 mm")});
+  chart_ = choice(
+      "besideChoice", tr("Beside it"),
+      {tr("3-D"), tr("Box plot"), tr("Error against run time"), tr("Force against travel"), tr("What it depends on")});
   arrows_ = new QCheckBox(tr("Displacement arrows"));
   arrows_->setObjectName(QStringLiteral("arrowsChoice"));
   arrows_->setToolTip(tr("From rest to where either answer puts a place, true to scale, in the slice and in 3-D; at "
@@ -249,15 +265,23 @@ void ComparePage::showResult() {
   showNumbers();
 }
 
-/// Pressure and way of the bar are there after a run with a rigid bar.
+/// Pressure and way of the bar are there after a run with a rigid bar; how sure it is, where that was asked for.
 void ComparePage::showWhatThereIs() {
   const auto picture = session_.picture();
   const bool bar = picture && picture->bar;
+  const auto offer = [](QComboBox* box, int index, bool there) {
+    qobject_cast<QStandardItemModel*>(box->model())->item(index)->setEnabled(there);
+    if (!there && box->currentIndex() == index) box->setCurrentIndex(0);
+  };
+  offer(shown_, 3, bar && picture->sure && picture->sure->vessel95_mm.size() > 0);
+  offer(what_, 2, bar && picture->sure && !picture->sure->beyond.values.empty());
   if (!bar) shown_->setCurrentIndex(0);
   shown_->setEnabled(bar);
   shown_->setToolTip(bar ? tr("Liver and vessels of both answers, or the contact pressure on one")
                          : tr("Contact pressure is known after a run with a rigid bar."));
   forces_->setHint(tr("After a run with a rigid bar: its force against its travel."));
+  sources_->setHint(
+      tr("After a run that says how sure it is (Model): what the difference at the retractor depends on."));
 }
 
 bool ComparePage::insetBelow() const {
@@ -282,14 +306,14 @@ void ComparePage::drawSlice() {
   zoomIsBelow_ = options.zoomBelow;
   const bool magnify = magnify_->isChecked();
   const std::optional<session::VesselPlace> vessel = vessel_;
-  const bool difference = what_->currentIndex() == 1;
+  const int what = what_->currentIndex();
   struct Drawn {
     render::Picture picture;
     int slice = 0;
   };
   auto drawn = std::make_shared<Drawn>();
   painter_.start(
-      [picture, options, drawn, difference, magnify, vessel](const Progress&) mutable {
+      [picture, options, drawn, what, magnify, vessel](const Progress&) mutable {
         // The first picture is of the slice where MRE and atlas differ most.
         if (options.slice < 0) options.slice = render::sliceOfLargestDifference(*picture);
         drawn->slice = options.slice;
@@ -297,15 +321,8 @@ void ComparePage::drawSlice() {
           options.zoomCentre_lps_mm =
               vessel ? vessel->seen_lps : pipeline::placeOfLargestDifference(*picture, options.slice);
         if (vessel) options.ring_lps_mm = vessel->seen_lps;
-        if (difference) {
-          render::MapOptions map{.high = 10.0};
-          map.slice = options.slice;
-          map.margin_mm = options.margin_mm;
-          if (vessel) map.ring_lps_mm = vessel->rest_lps;
-          drawn->picture = render::differencePicture(*picture, map);
-        } else {
-          drawn->picture = render::sliceOverlay(*picture, options);
-        }
+        drawn->picture = what == 0 ? render::sliceOverlay(*picture, options)
+                                   : mapOf(*picture, options, what == 2, vessel ? &vessel->rest_lps : nullptr);
       },
       [this, picture, drawn](std::exception_ptr failure) {
         const int shown = drawn->slice;
@@ -350,17 +367,20 @@ void ComparePage::showNumbers() {
   const comparison::Difference& d = *result->difference;
   retractor_->setText(mm(d.at_retractor_mm));
   const auto& e = result->discretisation;
-  retractorError_->setText(e && e->difference && e->difference->at_retractor_mm
-                               ? tr("± %1 by the size of the cells").arg(mm(*e->difference->at_retractor_mm))
-                               : QString());
+  QStringList beside;
+  if (const QString sure = interval(); !sure.isEmpty()) beside << sure;
+  if (e && e->difference && e->difference->at_retractor_mm)
+    beside << tr("± %1 by the size of the cells").arg(mm(*e->difference->at_retractor_mm));
+  retractorError_->setText(beside.join(QStringLiteral("\n")));
   numbers_->setText(tr("mean %1, 95th percentile %2, largest %3\n%4")
                         .arg(mm(d.mean_mm), mm(d.p95_mm), mm(d.max_mm), verdictOf(pipeline::significanceOf(*result))));
   vessels_->setText(d.vessel_mm.empty()
                         ? tr("No vessel landmarks were found.")
                         : tr("%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 of them at 5\u00a0mm or more")
-                              .arg(static_cast<qulonglong>(d.vessel_mm.size()))
-                              .arg(mm(d.vesselMean_mm), mm(d.vesselP95_mm), mm(d.vesselMax_mm))
-                              .arg(std::llround(d.vesselFractionBeyond * static_cast<double>(d.vessel_mm.size()))));
+                                  .arg(static_cast<qulonglong>(d.vessel_mm.size()))
+                                  .arg(mm(d.vesselMean_mm), mm(d.vesselP95_mm), mm(d.vesselMax_mm))
+                                  .arg(std::llround(d.vesselFractionBeyond * static_cast<double>(d.vessel_mm.size()))) +
+                              ofVessels());
   validity_->setText(trust());
 }
 

@@ -64,6 +64,8 @@ class ComparePage : public QWidget {
   void askForVideo();
   QWidget* makeVesselList();
   QString trust() const;
+  QString interval() const;
+  QString ofVessels() const;
   static QString verdictOf(pipeline::Significance significance);
   render::Palette palette_() const;
   session::Session& session_;
@@ -76,7 +78,7 @@ class ComparePage : public QWidget {
   bool chosen_ = false;  ///< else the slice of the largest difference is to be found and shown
   views::PictureView* overlay_;
   views::SceneView* scene_;
-  views::PictureView *boxes_, *forces_;
+  views::PictureView *boxes_, *forces_, *sources_;
   QStackedWidget* beside_;
   QTreeWidget* list_;
   ContactTable* contact_;

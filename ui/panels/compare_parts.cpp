@@ -12,9 +12,11 @@
 
 #include "panels/compare_page.h"
 #include "panels/form.h"
+#include "panels/language.h"
 #include "pipeline/pictures.h"
 #include "session/said.h"
 #include "session/session.h"
+#include "uncertainty/surgeon.h"
 #include "views/picture_view.h"
 #include "views/scene_view.h"
 
@@ -95,11 +97,12 @@ void ComparePage::showVessel(int row) {
 void ComparePage::drawCharts() {
   boxes_->clear();
   forces_->clear();
+  sources_->clear();
   const auto result = session_.result();
   const auto picture = session_.picture();
   if (!result || !picture || charter_.busy()) return;
   struct Drawn {
-    render::Picture boxes, forces;
+    render::Picture boxes, forces, sources;
   };
   auto drawn = std::make_shared<Drawn>();
   charter_.start(
@@ -109,6 +112,9 @@ void ComparePage::drawCharts() {
           drawn->boxes = render::draw(session::differenceBoxes(*result, *picture), size);
         if (picture->bar && !picture->bar->mre.path.empty())
           drawn->forces = render::draw(pipeline::forceChart(*picture->bar), size);
+        if (const auto numbers = pipeline::sureNumbersOf(*result))
+          if (const auto chart = pipeline::retractorTornado(*numbers, spoken()))
+            drawn->sources = render::draw(*chart, size);
       },
       [this, drawn, result](std::exception_ptr failure) {
         if (result != session_.result()) {
@@ -118,14 +124,48 @@ void ComparePage::drawCharts() {
         } else {
           if (drawn->boxes.width > 0) boxes_->setPicture(drawn->boxes);
           if (drawn->forces.width > 0) forces_->setPicture(drawn->forces);
+          if (drawn->sources.width > 0) sources_->setPicture(drawn->sources);
         }
       });
+}
+
+namespace {
+
+/// What the last run says of how sure its differences are; null where it does not.
+const uncertainty::Headline* headlineOf(const pipeline::RunResult& result) {
+  const auto& u = result.uncertainty;
+  return u && u->known && u->spread.headline ? &*u->spread.headline : nullptr;
+}
+
+QString inWords(const uncertainty::Interval& interval) {
+  return QString::fromStdString(uncertainty::rangeOf(interval, spoken())).replace(QLatin1Char(' '), QChar(0xa0));
+}
+
+}  // namespace
+
+QString ComparePage::interval() const {
+  const uncertainty::Headline* h = headlineOf(*session_.result());
+  if (h == nullptr) return {};
+  return tr("95 %: %1; chance of 5 mm or more: %2")
+      .arg(inWords(h->at_retractor_mm), QString::fromStdString(uncertainty::percent(h->beyond, spoken())));
+}
+
+QString ComparePage::ofVessels() const {
+  const uncertainty::Headline* h = headlineOf(*session_.result());
+  if (h == nullptr || !h->vessels) return {};
+  return tr("\n95 %: mean %1, largest %2; %3 to %4 % at 5\u00a0mm or more")
+      .arg(inWords(h->vessels->mean_mm), inWords(h->vessels->max_mm))
+      .arg(100 * h->vessels->beyond.low, 0, 'f', 0)
+      .arg(100 * h->vessels->beyond.high, 0, 'f', 0);
 }
 
 QString ComparePage::trust() const {
   const auto result = session_.result();
   QStringList words;
   if (session_.resultIsStale()) words << tr("Something has changed since this run: run again.");
+  if (const auto& u = result->uncertainty; u && u->known)
+    if (const std::string told = uncertainty::forSurgeon(u->tip, u->spread, spoken()); !told.empty())
+      words << QString::fromStdString(told) + QLatin1Char('.');
   for (const QString& w : session::said(result->primary.validity, result->primary.doubts)) words << sentence(w);
   if (words.isEmpty())
     words << (result->primary.kinematics == retraction::Kinematics::Linear

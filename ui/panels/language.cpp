@@ -10,6 +10,7 @@ namespace glisson::panels {
 namespace {
 
 const QString languageKey = QStringLiteral("language");
+Language now = Language::English;
 
 }  // namespace
 
@@ -20,6 +21,10 @@ QStringList languages() {
 QLocale preferredLanguage(const QLocale& otherwise) {
   const QString code = QSettings().value(languageKey).toString();
   return languages().contains(code) ? QLocale(code) : otherwise;
+}
+
+Language spoken() {
+  return now;
 }
 
 void rememberLanguage(const QString& code) {
@@ -35,6 +40,7 @@ void speak(const QLocale& language) {
     else
       delete translator;
   }
+  now = language.language() == QLocale::German ? Language::German : Language::English;
 }
 
 }  // namespace glisson::panels

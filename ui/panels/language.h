@@ -4,6 +4,8 @@
 #include <QLocale>
 #include <QStringList>
 
+#include "base/language.h"
+
 namespace glisson::panels {
 
 /// Texts of the program and of Qt itself (buttons of dialogs, names of keys) in this language, where there is a
@@ -14,6 +16,8 @@ void speak(const QLocale& language);
 QStringList languages();
 /// What was chosen last; where nothing was, `otherwise`.
 QLocale preferredLanguage(const QLocale& otherwise);
+/// The language of what core writes for surgeons: that of the texts.
+Language spoken();
 /// From the next start on.
 void rememberLanguage(const QString& code);
 

@@ -162,9 +162,7 @@ QWidget* ModelPage::makeSide() {
   solution_->addRow(tr("Step"), step_);
   end_ = quantity("endTime", 0.01, 100, 0.5, 2, QStringLiteral("s"), tr("Stops before where nothing moves any more"));
   solution_->addRow(tr("Until"), end_);
-  solver_ = choice("solver", tr("Who solves the equations; automatic takes the fastest for the size"));
-  solver_->addItems({tr("Automatic"), tr("Conjugate gradients"), tr("Multigrid"), tr("Factorised"), tr("Condensed")});
-  solution_->addRow(tr("Solver"), solver_);
+  addSolver();
   side->addLayout(solution_);
   side->addSpacing(8);
   side->addWidget(section(tr("Liver")));
@@ -181,8 +179,19 @@ QWidget* ModelPage::makeSide() {
   connect(frames_, &QSpinBox::valueChanged, this, &ModelPage::take);
   for (QComboBox* box : {method_, kinematics_, motion_, solver_, stiffness_})
     connect(box, &QComboBox::currentIndexChanged, this, &ModelPage::take);
-  connect(register_, &QCheckBox::toggled, this, &ModelPage::take);
+  for (QCheckBox* box : {register_, howSure_}) connect(box, &QCheckBox::toggled, this, &ModelPage::take);
   return frame;
+}
+
+void ModelPage::addSolver() {
+  solver_ = choice("solver", tr("Who solves the equations; automatic takes the fastest for the size"));
+  solver_->addItems({tr("Automatic"), tr("Conjugate gradients"), tr("Multigrid"), tr("Factorised"), tr("Condensed")});
+  solution_->addRow(tr("Solver"), solver_);
+  howSure_ = new QCheckBox(tr("Say how sure"));
+  howSure_->setObjectName(QStringLiteral("howSure"));
+  howSure_->setToolTip(
+      tr("Intervals, the chance of 5 mm and what drives them, under a rigid bar; takes about four times as long"));
+  solution_->addRow(QString(), howSure_);
 }
 
 void ModelPage::take() {
@@ -199,6 +208,7 @@ void ModelPage::take() {
   p.frames = frames_->value();
   p.useMre = stiffness_->currentIndex() == 0;
   p.registerRigidly = register_->isChecked();
+  p.howSure = howSure_->isChecked();
   p.method = session::named(session::methodNames, method_->currentData().toString().toStdString(), "model");
   p.tetEdge_mm = tetEdge_->value();
   p.tetToolEdge_mm = std::min(tetToolEdge_->value(), p.tetEdge_mm);
@@ -235,6 +245,7 @@ void ModelPage::show_() {
   solver_->setCurrentIndex(static_cast<int>(p.solver));
   stiffness_->setCurrentIndex(p.useMre ? 0 : 1);
   register_->setChecked(p.registerRigidly);
+  howSure_->setChecked(p.howSure);
   showWhatFits();
   filling_ = false;
 }
@@ -253,6 +264,7 @@ void ModelPage::showWhatFits() {
   auto* offers = qobject_cast<QStandardItemModel*>(solver_->model());
   offers->item(static_cast<int>(session::Solver::Condensed))->setEnabled(hex && linear);
   register_->setEnabled(p.useMre);
+  howSure_->setEnabled(p.contact == retraction::ContactKind::Rigid && !session::rigidRefusal(p));
 }
 
 void ModelPage::showEvent(QShowEvent*) {

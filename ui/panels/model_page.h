@@ -32,8 +32,9 @@ class ModelPage : public QWidget {
 
  private:
   QWidget* makeSide();
-  void take();   ///< form to session
-  void show_();  ///< session to form
+  void addSolver();  ///< and what else the run is to say
+  void take();       ///< form to session
+  void show_();      ///< session to form
   void showPlan();
   void showNumbers();
   void showWhatFits();  ///< enables what the chosen method offers
@@ -43,7 +44,7 @@ class ModelPage : public QWidget {
   QComboBox *method_, *kinematics_, *solver_, *motion_, *stiffness_;
   QDoubleSpinBox *poisson_, *density_, *cell_, *atlas_, *tetEdge_, *tetToolEdge_, *step_, *end_;
   QSpinBox* frames_;
-  QCheckBox* register_;
+  QCheckBox *register_, *howSure_;
   QFormLayout *mesh_ = nullptr, *solution_ = nullptr;
   bool filling_ = false;
 };

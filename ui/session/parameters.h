@@ -26,6 +26,7 @@ struct Parameters {
   double step_ms = retraction::AnalysisSpec{}.h_ms;
   double end_s = retraction::AnalysisSpec{}.end_s;
   bool registerRigidly = false;  ///< the elastogram is laid over the MRI first: another breath-hold
+  bool howSure = false;          ///< intervals and what drives them, under a rigid bar
   bool useMre = true;            ///< else the atlas stiffness throughout
   double atlasShear_kPa = defaults::atlasShear.kPa();
   // Retract

@@ -24,6 +24,7 @@ inline nlohmann::json toJson(const Parameters& p) {
           {"step_ms", p.step_ms},
           {"end_s", p.end_s},
           {"register_rigidly", p.registerRigidly},
+          {"how_sure", p.howSure},
           {"use_mre", p.useMre},
           {"atlas_shear_kPa", p.atlasShear_kPa},
           {"retractor_diameter_mm", p.retractorDiameter_mm},
@@ -70,6 +71,7 @@ inline Parameters parametersFromJson(const nlohmann::json& j) {
   p.step_ms = j.value("step_ms", p.step_ms);
   p.end_s = j.value("end_s", p.end_s);
   p.registerRigidly = j.value("register_rigidly", p.registerRigidly);
+  p.howSure = j.value("how_sure", p.howSure);
   p.useMre = j.at("use_mre").get<bool>();
   p.atlasShear_kPa = j.at("atlas_shear_kPa").get<double>();
   p.retractorDiameter_mm = j.at("retractor_diameter_mm").get<double>();

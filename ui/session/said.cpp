@@ -49,6 +49,7 @@ constexpr InWords stepNames[] = {
     {"picture-data", QT_TRANSLATE_NOOP("steps", "keeping what the pictures show")},
     {"slice-overlay", QT_TRANSLATE_NOOP("steps", "drawing slices")},
     {"3d-overlay", QT_TRANSLATE_NOOP("steps", "drawing in 3-D")},
+    {"uncertainty-pictures", QT_TRANSLATE_NOOP("steps", "drawing how sure the answer is")},
     {"sofa", QT_TRANSLATE_NOOP("steps", "writing a SOFA scene")},
     {"report", QT_TRANSLATE_NOOP("steps", "writing the report")},
     {"reading MRI", QT_TRANSLATE_NOOP("steps", "reading the MRI")},

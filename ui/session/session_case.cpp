@@ -35,6 +35,7 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
   s.geometry.rigidRegistration = parameters_.registerRigidly && s.material.kind == pipeline::MaterialSpec::Kind::Mre;
   s.setup = setupOf(parameters_);
   s.compare = pipeline::CompareSpec{parameters_.atlasShear_kPa, StiffnessQuantity::Shear};
+  if (parameters_.howSure && retraction::rigidBarOf(s.setup)) s.uncertainty.emplace();
   s.outputs.vessels = s.outputs.overlay = s.outputs.report = true;
   return s;
 }

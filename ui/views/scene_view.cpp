@@ -137,7 +137,8 @@ void SceneView::setShown(render::Shown3D shown) {
   if (options_.shown == shown) return;
   options_.shown = shown;
   options_.camera.reset();
-  if (shown != render::Shown3D::Answers) options_.camera = render::barCamera;
+  const bool pressure = shown == render::Shown3D::PressureMre || shown == render::Shown3D::PressureAtlas;
+  if (pressure) options_.camera = render::barCamera;
   compose(false);
 }
 

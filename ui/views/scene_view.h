@@ -48,7 +48,10 @@ class SceneView : public QWidget {
   /// Fraction of the displacement that is shown: 0 at rest, 1 retracted. Keeps the camera.
   void setFraction(double t);
   void setPalette3D(render::Palette palette);
-  /// Both answers, or the contact pressure on one, seen from where the bar touches. Pressure needs a scene with a bar.
+  /// Of Shown3D::HowSure.
+  void setLanguage(Language language) { options_.language = language; }
+  /// Both answers, the contact pressure on one, seen from where the bar touches, or how sure the vessels are. Pressure
+  /// needs a scene with a bar, HowSure one with a spread of its vessels.
   void setShown(render::Shown3D shown);
   void setArrows(bool on);  ///< displacement of both answers, true to scale
   void setView(render::View3D view);

@@ -20,6 +20,9 @@ render::RetractionScene retractionScene(const Scene& scene, const Inputs& inputs
 /// What the pictures show of a rigid bar; nothing without one. liver: the surface where the body has no smooth one.
 std::optional<render::RigidBar> drawnBar(const RunResult& result, const anatomy::TriangleMesh& liver);
 
+/// What the pictures show of how sure the run is; nothing where it does not say.
+std::optional<render::HowSure> howSureOf(const RunResult& result, const anatomy::VesselModel& vessels);
+
 /// Writes the files of one run into a folder, each written beside and then renamed; notes what was written.
 class Writer {
  public:
@@ -35,10 +38,12 @@ class Writer {
   void sliceOverlays(const PictureData& data, render::Palette palette);
   void charts(const PictureData& data);
   void overlays3D(const PictureData& data, render::Palette palette);
+  void howSure(const PictureData& data, Language language);
+  void howSure3D(const PictureData& data, render::Palette palette, Language language);
   /// inputs: name and SHA-256 of each input, for the manifest.
-  /// palette: of the pictures, which the report names.
+  /// palette: of the pictures, which the report names; language: of the sentence for surgeons.
   void report(const Scene& scene, const RunResult& r, const std::vector<std::pair<std::string, std::string>>& inputs,
-              render::Palette palette);
+              render::Palette palette, Language language);
 
  private:
   std::filesystem::path note(const std::string& name);

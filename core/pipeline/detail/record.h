@@ -12,7 +12,10 @@ namespace glisson::pipeline::detail {
 
 /// The run record of contract.md as JSON text: results, solver history, every parameter with its unit, SHA-256 of the
 /// inputs, of the results and of each file in result.files; version, seed. No user, host or path.
-std::string runRecord(const Scene& scene, const RunResult& result, render::Palette palette);
+std::string runRecord(const Scene& scene, const RunResult& result, render::Palette palette, Language language);
+
+/// In which the pictures of a record are; English of records that do not say.
+Language languageOf(const std::string& record);
 
 /// The record of a run with the files of another folder in it, drawn with this palette. beside: files that the run does
 /// not write, named under "charts" with their digests.

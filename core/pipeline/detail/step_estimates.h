@@ -38,6 +38,7 @@ Estimate writeDisplacementField(const Forecast& forecast);
 Estimate pictureData(const Forecast& forecast);
 Estimate sliceOverlay(const Forecast& forecast);
 Estimate overlay3D(const Forecast& forecast);
+Estimate uncertaintyPictures(const Forecast& forecast);
 Estimate report(const Forecast& forecast);
 Estimate sofa(const Forecast& forecast);
 

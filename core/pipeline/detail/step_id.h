@@ -39,6 +39,7 @@ enum class StepId {
   PictureData,
   SliceOverlay,
   Overlay3D,
+  UncertaintyPictures,
   Report,
   Sofa
 };

@@ -42,6 +42,8 @@ void writeTables(RunState& state);
 void writePictureData(RunState& state, const Progress& progress);
 void writeSlices(RunState& state, const Progress& progress);
 void writeOverlays3D(RunState& state, const Progress& progress);
+void leaveOutHowSure(RunState& state);
+void writeHowSure(RunState& state, const Progress& progress);
 void writeSofa(RunState& state, const Progress& progress);
 void writeReport(RunState& state, const Progress& progress);
 

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
+#include "base/language.h"
 #include "report/page.h"
 #include "uncertainty/propagate.h"
 
@@ -21,7 +23,10 @@ inline constexpr std::array<const char*, 6> spreadColumns = {
     "sd_mm", "atlas_sd_mm", "difference_sd_mm", "difference_low_mm", "difference_high_mm", "probability_beyond_5mm"};
 std::vector<double> spreadOf(const uncertainty::Uncertainty& u, std::size_t landmark);
 
-/// The section of the report.
-void howSure(const uncertainty::Uncertainty& u, report::Page& page);
+/// Beside a figure: " (95 %: 4.1 to 10.2 mm)".
+std::string in95(const uncertainty::Interval& interval, const char* unit);
+
+/// The section of the report. language: of the sentence for surgeons.
+void howSure(const uncertainty::Uncertainty& u, Language language, report::Page& page);
 
 }  // namespace glisson::pipeline::detail

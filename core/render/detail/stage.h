@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "base/language.h"
 #include "render/detail/scene3d_parts.h"
 #include "render/detail/viewpoint.h"
 #include "render/overlay.h"
@@ -49,9 +51,20 @@ class Stage {
   void drawWords(const Eigen::Vector3d& at, const Eigen::Vector3d& aside, bool above, Rgb colour,
                  const std::string& words);
   /// Legend, caption, reservation, research-use line.
-  void drawText(const RetractionScene& scene, std::vector<LegendRow> legend, double t);
-  /// A colour scale of pressure at the right, from 0 up to its end. beyond: some values are larger.
-  void drawScale(double end, bool beyond, const std::string& title);
+  struct Words {
+    std::string caption, mark;
+    Language language = Language::English;
+  };
+  void drawText(const Words& words, std::vector<LegendRow> legend, double t);
+  /// A colour scale at the right, from 0 up to its end.
+  struct ColourScale {
+    double end = 1.0;
+    bool beyond = false;  ///< some values are larger
+    std::string title;
+    std::function<Rgb(double)> colour;  ///< of a fraction of the end
+    Language language = Language::English;
+  };
+  void drawScale(const ColourScale& scale);
   /// Drawn whether decorated or not: an invalid run must not look like a valid one.
   void drawNotValidMark();
 

@@ -53,6 +53,51 @@ TEST(CohortStatistics, PatientsWhoseMeasurementFailedDoNotCount) {
   EXPECT_DOUBLE_EQ(s.fractionWithinVoxel, 1.0);
 }
 
+TEST(CohortStatistics, SharesHaveTheIntervalOfTheirProbabilities) {
+  EXPECT_FALSE(sureShareOf({}));
+  EXPECT_FALSE(sureShareOf({std::nan("")}));
+  // Certain patients leave nothing open.
+  const SureShare certain = sureShareOf({1.0, 0.0, 1.0, 1.0}).value();
+  EXPECT_DOUBLE_EQ(certain.expected, 0.75);
+  EXPECT_EQ(certain.low, 0.75);
+  EXPECT_EQ(certain.high, 0.75);
+  // Equal probabilities: binomial, of 20 at .3 from 2 to 10 (P(k <= 1) = .0076, P(k <= 2) = .0355, P(k <= 9) = .952,
+  // P(k <= 10) = .983).
+  const SureShare binomial = sureShareOf(std::vector<double>(20, 0.3)).value();
+  EXPECT_EQ(binomial.n, 20u);
+  EXPECT_NEAR(binomial.expected, 0.3, 1e-12);
+  EXPECT_DOUBLE_EQ(binomial.low, 2.0 / 20);
+  EXPECT_DOUBLE_EQ(binomial.high, 10.0 / 20);
+}
+
+TEST(CohortStatistics, SharesOfTheStudyComeFromPatientsThatSayHowSureTheyAre) {
+  std::vector<CaseRecord> records = {done("a", 2, 1, 6), done("b", 2, 1, 4), done("c", 2, 1, 1), done("d", 2, 1, 9)};
+  EXPECT_FALSE(retractionStudy(records).sureSignificant);
+  const auto run = [](const std::string& id, double p) {
+    CaseRecord r = recordOf(id, "key", "",
+                            R"({"difference": {"mean_mm": 1, "at_retractor_mm": 4, "probability_beyond_5mm": )" +
+                                std::to_string(p) +
+                                R"(, "probability_mean_within_voxel": 1, "interval95": {"at_retractor_mm": [2, 7]}}})");
+    r.outcome.status = CaseOutcome::Status::Done;
+    return r;
+  };
+  records[0] = run("a", 0.5);
+  records[1] = run("b", 0.5);
+  EXPECT_EQ(records[0].at_retractor_low_mm, 2.0);
+  EXPECT_EQ(records[0].at_retractor_high_mm, 7.0);
+  const RetractionStudy s = retractionStudy(records);
+  ASSERT_TRUE(s.sureSignificant && s.sureWithinVoxel);
+  EXPECT_EQ(s.sureSignificant->n, 2u);
+  EXPECT_DOUBLE_EQ(s.sureSignificant->expected, 0.5);
+  EXPECT_EQ(s.sureSignificant->low, 0.0);
+  EXPECT_EQ(s.sureSignificant->high, 1.0);
+  EXPECT_EQ(s.sureWithinVoxel->low, 1.0);
+  EXPECT_FALSE(s.sureTravelSignificant);
+  const CaseRecord back = parseRecord(toJson(records[0])).value();
+  EXPECT_EQ(back.probability_beyond_5mm, 0.5);
+  EXPECT_EQ(back.at_retractor_high_mm, 7.0);
+}
+
 TEST(CohortStatistics, ChoosesFourDifferentPatientsByTheData) {
   std::vector<CaseRecord> records;
   const std::vector<double> at = {1.0, 2.0, 2.0, 3.0, 3.0, 3.1, 4.0, 4.0, 5.0, 12.0};
