@@ -76,6 +76,7 @@ struct XyChart {
 
 /// How far each of several causes moves one number: bars from low to high about it, as they come.
 struct Tornado {
+  /// What one cause does.
   struct Bar {
     std::string label{};  ///< left of the axis
     double low = 0.0, high = 0.0;
