@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mechanics/block_matrix.h"
 
-#include <cholmod.h>
-
 #include <Eigen/LU>
 #include <algorithm>
-#include <string>
+#include <optional>
 
-#include "base/error.h"
 #include "base/parallel.h"
-
-extern "C" void openblas_set_num_threads(int);
+#include "mechanics/detail/sparse_cholesky.h"
 
 namespace glisson::mechanics {
 namespace {
@@ -79,39 +75,16 @@ void BlockMatrix::apply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
 }
 
 struct BlockFactor::State {
-  cholmod_common common{};
-  cholmod_sparse* K = nullptr;
-  cholmod_factor* L = nullptr;
-  cholmod_dense* X = nullptr;
-  cholmod_dense* Y = nullptr;
-  cholmod_dense* W = nullptr;
+  LowerTriangle K;
   std::vector<int> freeOf;     ///< free unknown per unknown, −1 where held
   std::vector<int> unknownOf;  ///< unknown per free unknown
   std::vector<double> right;
-
-  State() { cholmod_l_start(&common); }
-  ~State() {
-    cholmod_l_free_sparse(&K, &common);
-    cholmod_l_free_factor(&L, &common);
-    cholmod_l_free_dense(&X, &common);
-    cholmod_l_free_dense(&Y, &common);
-    cholmod_l_free_dense(&W, &common);
-    cholmod_l_finish(&common);
-  }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-
-  [[noreturn]] void noMemory() const {
-    throw SolverFailed("the factorisation of " + std::to_string(unknownOf.size()) +
-                           " degrees of freedom ran out of memory; use larger cells or another solver",
-                       0, 1.0, 0.0);
-  }
+  std::optional<SparseCholesky> cholesky;
 };
 
 BlockFactor::BlockFactor(const BlockMatrix& A, const Eigen::Array<bool, 3, Eigen::Dynamic>& held)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
-  openblas_set_num_threads(1);
   s.freeOf.assign(3 * static_cast<std::size_t>(A.nodes()), -1);
   for (int node = 0; node < A.nodes(); ++node)
     for (int c = 0; c < 3; ++c)
@@ -119,7 +92,6 @@ BlockFactor::BlockFactor(const BlockMatrix& A, const Eigen::Array<bool, 3, Eigen
         s.freeOf[static_cast<std::size_t>(3 * node + c)] = static_cast<int>(s.unknownOf.size());
         s.unknownOf.push_back(3 * node + c);
       }
-  if (s.unknownOf.empty()) return;
   s.right.resize(s.unknownOf.size());
   std::size_t entries = 0;
   for (int node = 0; node < A.nodes(); ++node)
@@ -127,27 +99,21 @@ BlockFactor::BlockFactor(const BlockMatrix& A, const Eigen::Array<bool, 3, Eigen
          p < A.rowStart_[static_cast<std::size_t>(node) + 1]; ++p)
       if (A.column_[p] >= node) entries += 9;
   const std::size_t n = s.unknownOf.size();
-  s.common.supernodal = CHOLMOD_SUPERNODAL;
-  s.common.final_ll = 1;
-  s.common.print = 0;
-  s.common.quick_return_if_not_posdef = 1;
-  s.K = cholmod_l_allocate_sparse(n, n, entries, 1, 1, -1, CHOLMOD_REAL, &s.common);
-  if (s.K == nullptr) s.noMemory();
-  auto* start = static_cast<SuiteSparse_long*>(s.K->p);
-  auto* row = static_cast<SuiteSparse_long*>(s.K->i);
-  SuiteSparse_long count = 0;
+  s.K.resize(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+  s.K.resizeNonZeros(static_cast<Eigen::Index>(entries));
+  std::int64_t count = 0;
   for (std::size_t j = 0; j < n; ++j) {
-    start[j] = count;
+    s.K.outerIndexPtr()[j] = count;
     const auto node = static_cast<std::size_t>(s.unknownOf[j] / 3);
     for (std::size_t p = A.rowStart_[node]; p < A.rowStart_[node + 1]; ++p)
       for (int c = 0; c < 3; ++c) {
         const int i = s.freeOf[static_cast<std::size_t>(3 * A.column_[p] + c)];
-        if (i >= static_cast<int>(j)) row[count++] = i;
+        if (i >= static_cast<int>(j)) s.K.innerIndexPtr()[count++] = i;
       }
   }
-  start[n] = count;
-  s.L = cholmod_l_analyze(s.K, &s.common);
-  if (s.L == nullptr) s.noMemory();
+  s.K.outerIndexPtr()[n] = count;
+  s.K.resizeNonZeros(count);
+  s.cholesky.emplace(s.K);
 }
 
 BlockFactor::~BlockFactor() = default;
@@ -158,8 +124,7 @@ int BlockFactor::free() const {
 
 bool BlockFactor::factorise(const BlockMatrix& A) {
   State& s = *state_;
-  if (s.unknownOf.empty()) return true;
-  auto* value = static_cast<double*>(s.K->x);
+  double* value = s.K.valuePtr();
   for (std::size_t j = 0; j < s.unknownOf.size(); ++j) {
     const auto node = static_cast<std::size_t>(s.unknownOf[j] / 3);
     const int axis = s.unknownOf[j] % 3;
@@ -168,26 +133,15 @@ bool BlockFactor::factorise(const BlockMatrix& A) {
         if (s.freeOf[static_cast<std::size_t>(3 * A.column_[p] + c)] >= static_cast<int>(j))
           *value++ = A.value_[p](axis, c);
   }
-  s.common.status = CHOLMOD_OK;
-  cholmod_l_factorize(s.K, s.L, &s.common);
-  if (s.common.status == CHOLMOD_OUT_OF_MEMORY || s.common.status == CHOLMOD_TOO_LARGE) s.noMemory();
-  return s.common.status == CHOLMOD_OK && s.L->minor == s.L->n;
+  return s.cholesky->factorise(s.K);
 }
 
 void BlockFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   State& s = *state_;
   x.setZero(b.size());
-  if (s.unknownOf.empty()) return;
   for (std::size_t i = 0; i < s.right.size(); ++i) s.right[i] = b[s.unknownOf[i]];
-  cholmod_dense B{};
-  B.nrow = B.nzmax = B.d = s.right.size();
-  B.ncol = 1;
-  B.x = s.right.data();
-  B.xtype = CHOLMOD_REAL;
-  B.dtype = CHOLMOD_DOUBLE;
-  if (cholmod_l_solve2(CHOLMOD_A, s.L, &B, nullptr, &s.X, nullptr, &s.Y, &s.W, &s.common) == 0) s.noMemory();
-  const auto* result = static_cast<const double*>(s.X->x);
-  for (std::size_t i = 0; i < s.right.size(); ++i) x[s.unknownOf[i]] = result[i];
+  s.cholesky->solve(s.right.data(), s.right.data());
+  for (std::size_t i = 0; i < s.right.size(); ++i) x[s.unknownOf[i]] = s.right[i];
 }
 
 BlockJacobi::BlockJacobi(const BlockMatrix& A, const Eigen::Array<bool, 3, Eigen::Dynamic>& held)

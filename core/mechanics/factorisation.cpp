@@ -1,38 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mechanics/factorisation.h"
 
-#include <cholmod.h>
-
-#include <cmath>
+#include <algorithm>
+#include <array>
+#include <optional>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "base/error.h"
-
-extern "C" void openblas_set_num_threads(int);
+#include "mechanics/detail/sparse_cholesky.h"
 
 namespace glisson::mechanics {
 namespace {
 
-/// Sparse lower triangle, summed from the cells. dofOf: 3 nodeSlots() numbers, −1 where inactive.
-cholmod_sparse* assemble(const LatticeOperator<double>& A, const HexMatrix& K0, const Eigen::Matrix<double, 8, 8>& M0,
-                         const std::vector<int>& dofOf, int dofs, cholmod_common* common) {
+/// Summed from the cells. dofOf: 3 nodeSlots() numbers, −1 where inactive.
+LowerTriangle assemble(const LatticeOperator<double>& A, const HexMatrix& K0, const Eigen::Matrix<double, 8, 8>& M0,
+                       const std::vector<int>& dofOf, int dofs) {
   const RowLattice& L = *A.lattice;
   const std::size_t n = L.nodeSlots();
   std::size_t filled = 0;
   for (const double E : A.E) filled += E != 0;
-  const std::size_t room = 300 * filled + 6 * A.springs.size();
-  cholmod_triplet* T = cholmod_l_allocate_triplet(static_cast<std::size_t>(dofs), static_cast<std::size_t>(dofs), room,
-                                                  -1, CHOLMOD_REAL, common);
-  if (T == nullptr) return nullptr;
-  auto* row = static_cast<SuiteSparse_long*>(T->i);
-  auto* column = static_cast<SuiteSparse_long*>(T->j);
-  auto* value = static_cast<double*>(T->x);
-  std::size_t count = 0;
+  std::vector<Eigen::Triplet<double, std::int64_t>> entries;
+  entries.reserve(300 * filled + 6 * A.springs.size());
   const auto add = [&](int a, int b, double v) {
     if (a < b || b < 0) return;
-    row[count] = a;
-    column[count] = b;
-    value[count++] = v;
+    entries.emplace_back(a, b, v);
   };
   for (int k = 0; k < L.cells().z(); ++k)
     for (int j = 0; j < L.cells().y(); ++j) {
@@ -62,41 +55,24 @@ cholmod_sparse* assemble(const LatticeOperator<double>& A, const HexMatrix& K0, 
       if (p >= 0 && q >= 0) add(std::max(p, q), std::min(p, q), v);
     }
   }
-  T->nnz = count;
-  cholmod_sparse* S = cholmod_l_triplet_to_sparse(T, count, common);
-  cholmod_l_free_triplet(&T, common);
-  return S;
+  LowerTriangle K(dofs, dofs);
+  K.setFromTriplets(entries.begin(), entries.end());
+  return K;
 }
 
 }  // namespace
 
 struct Factorisation::State {
-  cholmod_common common{};
-  cholmod_factor* L = nullptr;
   std::vector<std::size_t> slotOf;  ///< position in row storage per degree of freedom
   std::size_t size = 0;
   std::vector<double> right;
-  cholmod_dense* X = nullptr;
-  cholmod_dense* Y = nullptr;
-  cholmod_dense* W = nullptr;
-
-  State() { cholmod_l_start(&common); }
-  ~State() {
-    cholmod_l_free_dense(&X, &common);
-    cholmod_l_free_dense(&Y, &common);
-    cholmod_l_free_dense(&W, &common);
-    cholmod_l_free_factor(&L, &common);
-    cholmod_l_finish(&common);
-  }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
+  std::optional<SparseCholesky> cholesky;
 };
 
 Factorisation::Factorisation(const LatticeOperator<double>& A, const HexMatrix& K0,
                              const Eigen::Matrix<double, 8, 8>& M0)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
-  openblas_set_num_threads(1);
   s.size = A.size();
   std::vector<int> dofOf(A.size(), -1);
   const RowLattice& L = *A.lattice;
@@ -117,28 +93,15 @@ Factorisation::Factorisation(const LatticeOperator<double>& A, const HexMatrix& 
         dofOf[c * n + slot] = static_cast<int>(s.slotOf.size());
         s.slotOf.push_back(c * n + slot);
       }
-  if (s.slotOf.empty()) return;
-  s.common.supernodal = CHOLMOD_SUPERNODAL;
-  s.common.final_ll = 1;
-  s.common.print = 0;
-  cholmod_sparse* K = assemble(A, K0, M0, dofOf, dofs(), &s.common);
-  if (K != nullptr) {
-    s.L = cholmod_l_analyze(K, &s.common);
-    if (s.L != nullptr) cholmod_l_factorize(K, s.L, &s.common);
-    cholmod_l_free_sparse(&K, &s.common);
-  }
-  if (s.common.status == CHOLMOD_NOT_POSDEF)
+  s.right.resize(s.slotOf.size());
+  const LowerTriangle K = assemble(A, K0, M0, dofOf, dofs());
+  s.cholesky.emplace(K);
+  if (!s.cholesky->factorise(K))
     throw SolverFailed(
         "the stiffness of " + std::to_string(dofs()) +
             " degrees of freedom is not positive definite to double precision: the body is hardly held, or "
             "its moduli span more decades than double precision does",
         0, 1.0, 0.0);
-  if (s.common.status != CHOLMOD_OK || s.L == nullptr)
-    throw SolverFailed(
-        "the factorisation of " + std::to_string(dofs()) + " degrees of freedom ran out of memory (about " +
-            std::to_string(static_cast<long>(expectedBytes(dofs()) / 1e6)) + " MB expected); use the multigrid solver",
-        0, 1.0, 0.0);
-  s.right.resize(s.slotOf.size());
 }
 
 Factorisation::~Factorisation() = default;
@@ -150,28 +113,19 @@ int Factorisation::dofs() const {
 }
 
 double Factorisation::bytes() const {
-  return state_->L == nullptr ? 0 : 8 * static_cast<double>(state_->L->xsize);
+  return state_->cholesky->bytes();
 }
 
 double Factorisation::expectedBytes(double dofs) {
-  return 8 * 14.0 * std::pow(dofs, 4.0 / 3.0);
+  return SparseCholesky::expectedBytes(dofs);
 }
 
 void Factorisation::solve(const double* b, double* x) {
   State& s = *state_;
   std::fill(x, x + s.size, 0.0);
-  if (s.slotOf.empty()) return;
   for (std::size_t i = 0; i < s.slotOf.size(); ++i) s.right[i] = b[s.slotOf[i]];
-  cholmod_dense B{};
-  B.nrow = B.nzmax = B.d = s.right.size();
-  B.ncol = 1;
-  B.x = s.right.data();
-  B.xtype = CHOLMOD_REAL;
-  B.dtype = CHOLMOD_DOUBLE;
-  if (cholmod_l_solve2(CHOLMOD_A, s.L, &B, nullptr, &s.X, nullptr, &s.Y, &s.W, &s.common) == 0)
-    throw SolverFailed("the triangular solve ran out of memory", 0, 1.0, 0.0);
-  const auto* result = static_cast<const double*>(s.X->x);
-  for (std::size_t i = 0; i < s.slotOf.size(); ++i) x[s.slotOf[i]] = result[i];
+  s.cholesky->solve(s.right.data(), s.right.data());
+  for (std::size_t i = 0; i < s.slotOf.size(); ++i) x[s.slotOf[i]] = s.right[i];
 }
 
 }  // namespace glisson::mechanics

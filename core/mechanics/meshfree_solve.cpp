@@ -5,18 +5,16 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "mechanics/detail/one_blas_thread.h"
 
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda, double* b,
              const int* ldb, int* info);
-void openblas_set_num_threads(int threads);
-int openblas_get_num_threads();
 }
 
 namespace glisson::mechanics {
@@ -24,34 +22,6 @@ namespace {
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// BLAS on one thread while it lives: its sums would depend on the number of threads otherwise.
-class OneBlasThread {
- public:
-  OneBlasThread() : lock_(guard()), before_(openblas_get_num_threads()) {
-    if (before_ != 1) openblas_set_num_threads(1);
-  }
-  ~OneBlasThread() {
-    if (before_ != 1) openblas_set_num_threads(before_);
-  }
-  OneBlasThread(const OneBlasThread&) = delete;
-  OneBlasThread& operator=(const OneBlasThread&) = delete;
-
- private:
-  static std::mutex& guard() {
-    static std::mutex mutex;
-    return mutex;
-  }
-  std::lock_guard<std::mutex> lock_;
-  int before_;
-};
-
-double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return parallelSum(static_cast<std::size_t>(a.size()), 16384, [&](std::size_t begin, std::size_t end) {
-    const auto from = static_cast<Eigen::Index>(begin), count = static_cast<Eigen::Index>(end - begin);
-    return a.segment(from, count).dot(b.segment(from, count));
-  });
 }
 
 }  // namespace
@@ -78,90 +48,36 @@ void symmetricTimes(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd&
 SolveReport conjugateGradients(const VectorMap& A, const VectorMap& precondition, const Eigen::VectorXd& b,
                                Eigen::VectorXd& x, int iterations, double tolerance, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
+  KrylovOptions options;
+  options.limit = iterations;
+  options.tolerance = tolerance;
+  options.warm = true;
+  options.quiet = true;
+  const KrylovResult result = conjugateGradients(A, precondition, b, x, options, progress);
   SolveReport report;
   report.kind = "cg";
+  report.status = result.status;
+  report.iterations = result.iterations;
+  report.residual = result.residual;
   report.tolerance = tolerance;
-  const auto finish = [&](SolveStatus status, double residual) {
-    report.status = status, report.residual = residual, report.seconds = secondsSince(start);
-    return report;
-  };
-  if (x.size() != b.size()) x = Eigen::VectorXd::Zero(b.size());
-  const double norm = std::sqrt(dot(b, b));
-  if (!std::isfinite(norm)) return finish(SolveStatus::NotFinite, norm);
-  if (norm == 0.0) {
-    x.setZero();
-    return finish(SolveStatus::Converged, 0.0);
-  }
-  Eigen::VectorXd Ap(b.size()), z(b.size());
-  A(x, Ap);
-  Eigen::VectorXd r = b - Ap;
-  const auto trueResidual = [&] {
-    A(x, Ap);
-    const Eigen::VectorXd rest = b - Ap;
-    return std::sqrt(dot(rest, rest)) / norm;
-  };
-  const auto apply = [&](const Eigen::VectorXd& from, Eigen::VectorXd& to) {
-    if (precondition)
-      precondition(from, to);
-    else
-      to = from;
-  };
-  apply(r, z);
-  Eigen::VectorXd p = z;
-  double rz = dot(r, z);
-  SolveStatus status = SolveStatus::StoppedAtLimit;
-  int restarts = 0;
-  while (true) {
-    if (std::sqrt(dot(r, r)) <= tolerance * norm) {
-      // The recurrence drifts from b − A x; only the true residual ends the iteration.
-      A(x, Ap);
-      r = b - Ap;
-      if (std::sqrt(dot(r, r)) <= tolerance * norm) {
-        status = SolveStatus::Converged;
-        break;
-      }
-      if (++restarts > 5) break;
-      apply(r, z);
-      p = z;
-      rz = dot(r, z);
-    }
-    if (report.iterations >= iterations) break;
-    if (report.iterations % 16 == 0) progress.check();
-    A(p, Ap);
-    const double pAp = dot(p, Ap);
-    if (!std::isfinite(pAp) || !std::isfinite(rz)) {
-      status = SolveStatus::NotFinite;
-      break;
-    }
-    if (pAp <= 0.0) {
-      status = SolveStatus::Indefinite;
-      break;
-    }
-    const double alpha = rz / pAp;
-    x += alpha * p;
-    r -= alpha * Ap;
-    apply(r, z);
-    const double next = dot(r, z);
-    p = z + (next / rz) * p;
-    rz = next;
-    ++report.iterations;
-  }
-  const double residual = trueResidual();
-  if (!std::isfinite(residual)) status = SolveStatus::NotFinite;
-  return finish(status, residual);
+  report.seconds = secondsSince(start);
+  return report;
+}
+
+void acceptRounding(double floor, SolveReport& report) {
+  if (report.status != SolveStatus::StoppedAtLimit || !(report.residual <= floor)) return;
+  std::ostringstream note;
+  note << "; the residual reached the rounding of double precision, " << floor << ", above the tolerance asked for";
+  report.why += note.str();
+  report.tolerance = floor;
+  report.status = SolveStatus::Converged;
 }
 
 void acceptRounding(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b, const Eigen::VectorXd& x,
                     SolveReport& report) {
   if (report.status != SolveStatus::StoppedAtLimit) return;
   const Eigen::VectorXd sizes = A.cwiseAbs() * x.cwiseAbs();
-  const double floor = 4 * std::numeric_limits<double>::epsilon() * sizes.norm() / b.norm();
-  if (!(report.residual <= floor)) return;
-  std::ostringstream note;
-  note << "; the residual reached the rounding of double precision, " << floor << ", above the tolerance asked for";
-  report.why += note.str();
-  report.tolerance = floor;
-  report.status = SolveStatus::Converged;
+  acceptRounding(4 * std::numeric_limits<double>::epsilon() * sizes.norm() / b.norm(), report);
 }
 
 VectorMap jacobi(const Eigen::SparseMatrix<double>& A) {

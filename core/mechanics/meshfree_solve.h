@@ -3,31 +3,28 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <functional>
 #include <memory>
 #include <vector>
 
 #include "base/progress.h"
+#include "mechanics/krylov.h"
 #include "mechanics/problem.h"
 
 namespace glisson::mechanics {
-
-/// y = A x; y has the right size already.
-using VectorMap = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& y)>;
 
 /// y = A x for a symmetric compressed matrix (column j is row j, so that threads write apart). Same bits with any
 /// threads.
 void symmetricTimes(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& x, Eigen::VectorXd& y);
 
-/// Conjugate gradients from the start x (warm start), A symmetric positive definite, `precondition` approximates A⁻¹
-/// (empty: none). Stops at iterations, at the tolerance on ‖b − A x‖/‖b‖, at pᵀAp ≤ 0 (Indefinite) or at a value that
-/// is not finite (NotFinite; x is then the last finite iterate). The residual reported is recomputed from x. b = 0
-/// gives 0.
+/// conjugateGradients of krylov.h from the start x (0 where its size is another), reported as a solve of its own: kind
+/// "cg", the seconds it took.
 SolveReport conjugateGradients(const VectorMap& A, const VectorMap& precondition, const Eigen::VectorXd& b,
                                Eigen::VectorXd& x, int iterations, double tolerance, const Progress& progress = {});
 
-/// Evaluating A x in double precision leaves a residual of up to 4 ε ‖|A| |x|‖ however x was found: where a solve ended
-/// above its tolerance and within that floor, it is Converged, its tolerance is the floor, and `why` says so.
+/// Where a solve ended above its tolerance with a residual of at most `floor`, which rounding alone leaves, it is
+/// Converged, its tolerance is the floor, and `why` says so.
+void acceptRounding(double floor, SolveReport& report);
+/// Evaluating A x in double precision leaves a residual of up to 4 ε ‖|A| |x|‖ however x was found: that floor.
 void acceptRounding(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& b, const Eigen::VectorXd& x,
                     SolveReport& report);
 
