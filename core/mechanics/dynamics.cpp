@@ -133,12 +133,9 @@ Solution solutionInMotion(const VoxelOperator& voxels, const NodalField& f_N, co
   const NodalField spring_N = voxels.springForce(u_m);
   const NodalField internal_N = voxels.applyFree(u_m);
   s.energy_J = 0.5 * u_m.cwiseProduct(internal_N - spring_N).sum();
-  const NodalField rest_N = internal_N - spring_N - f_N + voxels.applyMass(a_m_s2 + alpha_1_s * v_m_s) +
-                            beta_s * (voxels.applyFree(v_m_s) - voxels.springForce(v_m_s));
-  s.reaction_N = spring_N;
-  for (int node = 0; node < voxels.mesh().nodeCount(); ++node)
-    for (int c = 0; c < 3; ++c)
-      if (voxels.isFixed(node, c)) s.reaction_N(c, node) += rest_N(c, node);
+  const NodalField imbalance_N = internal_N - f_N + voxels.applyMass(a_m_s2 + alpha_1_s * v_m_s) +
+                                 beta_s * (voxels.applyFree(v_m_s) - voxels.springForce(v_m_s));
+  s.reaction_N = reactionForces(voxels.fixed(), spring_N, imbalance_N);
   return s;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "mechanics/supports.h"
 
 namespace glisson::mechanics {
 namespace {
@@ -98,25 +99,11 @@ Distances distanceTo(const VoxelMesh& mesh, const std::vector<int>& sources) {
 Clamp distanceClamp(const VoxelMesh& mesh, const Supports& supports, double h_m) {
   if (!(h_m > 0.0))
     throw BadArgument("distanceClamp: transition width " + std::to_string(h_m) + " m; must be positive");
-  const auto nodeCount = static_cast<std::size_t>(mesh.nodeCount());
-  NodalField value_m = NodalField::Zero(3, mesh.nodeCount());
-  std::array<std::vector<char>, 3> fixed;
-  for (auto& f : fixed) f.assign(nodeCount, 0);
+  const DirichletData dirichlet = readDirichlet(supports.fixations, mesh.nodeCount());
+  const auto& fixed = dirichlet.constrained;
   Clamp clamp;
-  for (const Fixation& fix : supports.fixations) {
-    if (fix.node < 0 || fix.node >= mesh.nodeCount())
-      throw BadInput("a fixation names node " + std::to_string(fix.node) + " of a body with " +
-                     std::to_string(mesh.nodeCount()) + " nodes");
-    for (int c = 0; c < 3; ++c) {
-      if (!fix.axis[static_cast<std::size_t>(c)]) continue;
-      if (!std::isfinite(fix.value_m[c]))
-        throw BadInput("the prescribed displacement of node " + std::to_string(fix.node) + " is not finite");
-      fixed[static_cast<std::size_t>(c)][static_cast<std::size_t>(fix.node)] = 1;
-      value_m(c, fix.node) = fix.value_m[c];
-      clamp.lifted = clamp.lifted || fix.value_m[c] != 0.0;
-    }
-  }
-  clamp.sameOnAllAxes = fixed[0] == fixed[1] && fixed[1] == fixed[2];
+  clamp.lifted = (dirichlet.value_m.array() != 0.0).any();
+  clamp.sameOnAllAxes = (fixed.row(0) == fixed.row(1)).all() && (fixed.row(1) == fixed.row(2)).all();
   clamp.d = NodalField::Ones(3, mesh.nodeCount());
   clamp.lift_m = NodalField::Zero(3, mesh.nodeCount());
   clamp.nearest.setConstant(3, mesh.nodeCount(), -1);
@@ -124,8 +111,8 @@ Clamp distanceClamp(const VoxelMesh& mesh, const Supports& supports, double h_m)
   Distances distances;
   for (int c = 0; c < 3; ++c) {
     std::vector<int> sources;
-    for (std::size_t m = 0; m < nodeCount; ++m)
-      if (fixed[static_cast<std::size_t>(c)][m]) sources.push_back(static_cast<int>(m));
+    for (int m = 0; m < mesh.nodeCount(); ++m)
+      if (fixed(c, m)) sources.push_back(m);
     if (sources.empty()) continue;
     if (c == 0 || !clamp.sameOnAllAxes) distances = distanceTo(mesh, sources);
     for (int m = 0; m < mesh.nodeCount(); ++m) {
@@ -138,7 +125,7 @@ Clamp distanceClamp(const VoxelMesh& mesh, const Supports& supports, double h_m)
       const double near = rest * rest * rest;
       clamp.d(c, m) = 1.0 - near;
       clamp.nearest(c, m) = distances.source[at];
-      clamp.lift_m(c, m) = near * value_m(c, distances.source[at]);
+      clamp.lift_m(c, m) = near * dirichlet.value_m(c, distances.source[at]);
     }
   }
   return clamp;

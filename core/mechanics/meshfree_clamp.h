@@ -21,7 +21,7 @@ struct Clamp {
 };
 
 /// h_m > 0: the width of the transition, the mean spacing of the frames. Distances are Euclidean (exact transform on
-/// the node lattice). Throws BadInput where a fixation names a node outside the mesh or has a value that is not finite.
+/// the node lattice). Throws BadInput as readDirichlet does.
 Clamp distanceClamp(const VoxelMesh& mesh, const Supports& supports, double h_m);
 
 }  // namespace glisson::mechanics

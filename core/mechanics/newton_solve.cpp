@@ -51,7 +51,7 @@ struct Newton {
   }
   /// Residual forces on the free degrees of freedom.
   Eigen::VectorXd residual(double t, const Eigen::VectorXd& force) const { return onFree(t * f - force); }
-  /// What they are measured by.
+  /// Norm that scales the residual.
   double reference(double t, const Eigen::VectorXd& force) const {
     const double load = (t * onFree(f)).norm();
     return moves ? std::hypot(load, (force - onFree(force)).norm()) : load;
@@ -223,10 +223,9 @@ Solution solveLargeDeformation(const Problem& problem, LargeDeformationKind kind
   solution.u_m = u.reshaped(3, mesh.nodeCount());
   solution.energy_J = energy;
   const VoxelOperator& op = newton.model.op();
-  solution.reaction_N = op.springForce(solution.u_m);
-  for (int node = 0; node < mesh.nodeCount(); ++node)
-    for (int c = 0; c < 3; ++c)
-      if (op.isFixed(node, c)) solution.reaction_N(c, node) += force[3 * node + c] - reached * problem.f_N(c, node);
+  const NodalField spring_N = op.springForce(solution.u_m);
+  const NodalField internal_N = force.reshaped(3, mesh.nodeCount()) + spring_N;  // of the cells alone
+  solution.reaction_N = reactionForces(op.fixed(), spring_N, internal_N - reached * problem.f_N);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return solution;
 }

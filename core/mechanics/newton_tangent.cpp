@@ -42,9 +42,6 @@ LargeDeformationModel::LargeDeformationModel(const Problem& problem, LargeDeform
     const Eigen::Vector3i p = mesh.cellOf(e);
     E_[e] = problem.body.E_Pa[problem.body.cell(p.x(), p.y(), p.z())];
   }
-  held_.resize(3, mesh.nodeCount());
-  for (int node = 0; node < mesh.nodeCount(); ++node)
-    for (int c = 0; c < 3; ++c) held_(c, node) = op_.isFixed(node, c);
   tangent_ = std::make_unique<BlockMatrix>(mesh.nodeCount(), elements_);
 }
 

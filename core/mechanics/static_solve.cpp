@@ -372,11 +372,9 @@ Solution StaticSolver::solve(const NodalField& f_N, const Progress& progress) {
   }
   right = {};
   const NodalField internal = s.op.applyFree(solution.u_m);
-  solution.reaction_N = s.op.springForce(solution.u_m);
-  solution.energy_J = 0.5 * (solution.u_m.cwiseProduct(internal - solution.reaction_N)).sum();
-  for (int node = 0; node < nodes; ++node)
-    for (int c = 0; c < 3; ++c)
-      if (s.op.isFixed(node, c)) solution.reaction_N(c, node) = internal(c, node) - f_N(c, node);
+  const NodalField spring_N = s.op.springForce(solution.u_m);
+  solution.energy_J = 0.5 * (solution.u_m.cwiseProduct(internal - spring_N)).sum();
+  solution.reaction_N = reactionForces(s.op.fixed(), spring_N, internal - f_N);
   solution.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return solution;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -11,8 +12,6 @@
 
 namespace glisson::mechanics {
 namespace {
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// Filled cell per box cell, −1 where empty.
 struct CellIndex {
@@ -35,7 +34,8 @@ struct CellIndex {
 };
 
 /// All 6 × 6 matrices at once: one pass over the supports.
-std::vector<Matrix6> supportMatrices(const VoxelMesh& mesh, const Supports& supports, const Components& components) {
+std::vector<SupportMatrix> supportMatrices(const VoxelMesh& mesh, const Supports& supports,
+                                           const Components& components) {
   const auto count = static_cast<std::size_t>(components.count());
   std::vector<Eigen::Vector3d> low(count, Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()));
   std::vector<Eigen::Vector3d> high(count, Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity()));
@@ -60,13 +60,10 @@ std::vector<Matrix6> supportMatrices(const VoxelMesh& mesh, const Supports& supp
   };
   for (const Spring& s : supports.springs)
     for (const std::size_t c : componentsAt(s.node)) stiffest[c] = std::max(stiffest[c], s.k_N_m.trace());
-  std::vector<Matrix6> S(count, Matrix6::Zero());
+  std::vector<SupportMatrix> S(count, SupportMatrix::Zero());
   const auto add = [&](int node, std::size_t c, const Eigen::Matrix3d& s) {
     const Eigen::Vector3d x = (mesh.position_m(node) - 0.5 * (low[c] + high[c])) / (0.5 * (high[c] - low[c]).norm());
-    Eigen::Matrix<double, 3, 6> J;
-    J << Eigen::Matrix3d::Identity(),
-        (Eigen::Matrix3d() << 0, x.z(), -x.y(), -x.z(), 0, x.x(), x.y(), -x.x(), 0).finished();
-    S[c] += J.transpose() * s * J;
+    addSupport(S[c], x, s);
   };
   for (const Fixation& f : supports.fixations)
     for (const std::size_t c : componentsAt(f.node))
@@ -77,14 +74,68 @@ std::vector<Matrix6> supportMatrices(const VoxelMesh& mesh, const Supports& supp
   return S;
 }
 
-int freeModesOf(const Matrix6& S) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(S, Eigen::EigenvaluesOnly);
+void requireNode(int node, int nodes, const char* what) {
+  if (node >= 0 && node < nodes) return;
+  throw BadInput(std::string(what) + " at node " + std::to_string(node) + ", but the mesh has nodes 0 to " +
+                 std::to_string(nodes - 1));
+}
+
+}  // namespace
+
+DirichletData readDirichlet(const std::vector<Fixation>& fixations, int nodes) {
+  DirichletData data{Eigen::Array<bool, 3, Eigen::Dynamic>::Constant(3, nodes, false), NodalField::Zero(3, nodes)};
+  for (const Fixation& f : fixations) {
+    requireNode(f.node, nodes, "a fixation");
+    for (int c = 0; c < 3; ++c) {
+      if (!f.axis[static_cast<std::size_t>(c)]) continue;
+      const double value = f.value_m[c];
+      if (!std::isfinite(value))
+        throw BadInput("the prescribed displacement of node " + std::to_string(f.node) + " is not finite");
+      if (data.constrained(c, f.node) && data.value_m(c, f.node) != value)
+        throw BadInput("two fixations of node " + std::to_string(f.node) + " disagree: " +
+                       std::to_string(data.value_m(c, f.node)) + " m and " + std::to_string(value) + " m");
+      data.constrained(c, f.node) = true;
+      data.value_m(c, f.node) = value;
+    }
+  }
+  return data;
+}
+
+void requireGoodSprings(const std::vector<Spring>& springs, int nodes) {
+  for (const Spring& spring : springs) {
+    requireNode(spring.node, nodes, "a spring");
+    const Eigen::Matrix3d& k = spring.k_N_m;
+    const double size = k.cwiseAbs().maxCoeff();
+    bool good = k.allFinite() && (k - k.transpose()).cwiseAbs().maxCoeff() <= 1e-10 * size;
+    if (good) {
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(k, Eigen::EigenvaluesOnly);
+      good = eigen.eigenvalues()[0] >= -1e-10 * size;
+    }
+    if (good) continue;
+    std::ostringstream what;
+    what << "the spring at node " << spring.node << " is not symmetric positive semi-definite and finite (N/m):\n" << k;
+    throw BadInput(what.str());
+  }
+}
+
+NodalField reactionForces(const Eigen::Array<bool, 3, Eigen::Dynamic>& constrained, const NodalField& spring_N,
+                          const NodalField& imbalance_N) {
+  return constrained.select(imbalance_N.array(), spring_N.array()).matrix();
+}
+
+void addSupport(SupportMatrix& S, const Eigen::Vector3d& x, const Eigen::Matrix3d& s) {
+  Eigen::Matrix<double, 3, 6> J;
+  J << Eigen::Matrix3d::Identity(),
+      (Eigen::Matrix3d() << 0, x.z(), -x.y(), -x.z(), 0, x.x(), x.y(), -x.x(), 0).finished();
+  S += J.transpose() * s * J;
+}
+
+int freeModesOf(const SupportMatrix& S) {
+  const Eigen::SelfAdjointEigenSolver<SupportMatrix> eigen(S, Eigen::EigenvaluesOnly);
   const double largest = eigen.eigenvalues()[5];
   if (!(largest > 0)) return 6;
   return static_cast<int>((eigen.eigenvalues().array() < 1e-8 * largest).count());
 }
-
-}  // namespace
 
 Components findComponents(const VoxelMesh& mesh) {
   const CellIndex cellAt(mesh);
@@ -127,7 +178,8 @@ Components findComponents(const VoxelMesh& mesh) {
   return components;
 }
 
-Matrix6 supportMatrix(const VoxelMesh& mesh, const Supports& supports, const Components& components, int component) {
+SupportMatrix supportMatrix(const VoxelMesh& mesh, const Supports& supports, const Components& components,
+                            int component) {
   if (component < 0 || component >= components.count())
     throw BadArgument("supportMatrix: there is no component " + std::to_string(component));
   return supportMatrices(mesh, supports, components)[static_cast<std::size_t>(component)];
@@ -135,7 +187,7 @@ Matrix6 supportMatrix(const VoxelMesh& mesh, const Supports& supports, const Com
 
 std::vector<FreeComponent> findUnsupported(const VoxelMesh& mesh, const Supports& supports) {
   const Components components = findComponents(mesh);
-  const std::vector<Matrix6> S = supportMatrices(mesh, supports, components);
+  const std::vector<SupportMatrix> S = supportMatrices(mesh, supports, components);
   std::vector<FreeComponent> free;
   std::vector<int> place(S.size(), -1);
   for (std::size_t c = 0; c < S.size(); ++c) {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mechanics/tet_solve.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <sstream>
+#include <utility>
 
 #include "base/disjoint_sets.h"
 #include "base/error.h"
@@ -24,7 +23,6 @@ namespace glisson::mechanics {
 namespace {
 
 constexpr std::size_t batchSize = 1024;
-constexpr double freeMode = 1e-8;  ///< eigenvalue of the rigid supports, relative to the largest
 
 void check(const TetProblem& p) {
   const TetMesh& m = p.mesh;
@@ -53,35 +51,8 @@ void check(const TetProblem& p) {
     if (used[node] == 0) throw BadInput("node " + std::to_string(node) + " belongs to no tetrahedron; remove it");
 }
 
-struct Held {
-  Eigen::Array<bool, 3, Eigen::Dynamic> held;
-  Eigen::VectorXd value;
-};
-
-Held readFixations(const TetProblem& p) {
-  const int nodes = p.mesh.nodeCount();
-  Held h{Eigen::Array<bool, 3, Eigen::Dynamic>::Constant(3, nodes, false), Eigen::VectorXd::Zero(3 * nodes)};
-  for (const Fixation& f : p.supports.fixations) {
-    if (f.node < 0 || f.node >= nodes)
-      throw BadInput("a fixation at node " + std::to_string(f.node) + ": no such node");
-    for (int c = 0; c < 3; ++c) {
-      if (!f.axis[static_cast<std::size_t>(c)]) continue;
-      double& value = h.value[3 * f.node + c];
-      if (!std::isfinite(f.value_m[c]) || (h.held(c, f.node) && value != f.value_m[c]))
-        throw BadInput("the fixations of node " + std::to_string(f.node) + " disagree or are not finite");
-      h.held(c, f.node) = true;
-      value = f.value_m[c];
-    }
-  }
-  for (const Spring& s : p.supports.springs)
-    if (s.node < 0 || s.node >= nodes || !s.k_N_m.allFinite())
-      throw BadInput("a spring at node " + std::to_string(s.node) +
-                     ": no such node, or a stiffness that is not finite");
-  return h;
-}
-
-/// Every piece (tetrahedra that share nodes) must be held against its six rigid motions.
-void requireHeld(const TetProblem& p) {
+/// Every piece (tetrahedra that share nodes) must be supported against its six rigid motions.
+void requirePiecesSupported(const TetProblem& p) {
   DisjointSets pieces(static_cast<std::size_t>(p.mesh.nodeCount()));
   for (int t = 0; t < p.mesh.tetCount(); ++t)
     for (const int node : p.mesh.tets.col(t)) pieces.join(node, p.mesh.tets(0, t));
@@ -91,21 +62,17 @@ void requireHeld(const TetProblem& p) {
   const Eigen::Vector3d high = p.mesh.nodes_m.rowwise().maxCoeff();
   for (int piece = 0; piece < p.mesh.nodeCount(); ++piece) {
     if (pieces.find(piece) != piece) continue;
-    Eigen::Matrix<double, 6, 6> S = Eigen::Matrix<double, 6, 6>::Zero();
+    SupportMatrix S = SupportMatrix::Zero();
     const auto add = [&](int node, const Eigen::Matrix3d& s) {
       if (pieces.find(node) != piece) return;
       const Eigen::Vector3d x = (p.mesh.nodes_m.col(node) - 0.5 * (low + high)) / (0.5 * (high - low).norm());
-      Eigen::Matrix<double, 3, 6> J;
-      J << Eigen::Matrix3d::Identity(),
-          (Eigen::Matrix3d() << 0, x.z(), -x.y(), -x.z(), 0, x.x(), x.y(), -x.x(), 0).finished();
-      S += J.transpose() * s * J;
+      addSupport(S, x, s);
     };
     for (const Fixation& f : p.supports.fixations)
       add(f.node, Eigen::Vector3d(f.axis[0], f.axis[1], f.axis[2]).asDiagonal());
     for (const Spring& s : p.supports.springs)
       if (stiffest > 0) add(s.node, s.k_N_m / stiffest);
-    const auto l = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(S).eigenvalues();
-    const auto modes = (l.array() <= freeMode * l[5]).count();
+    const int modes = freeModesOf(S);
     if (modes > 0)
       throw BadInput("the piece of the mesh with node " + std::to_string(piece) + " is free to move in " +
                      std::to_string(modes) + " rigid modes; support it");
@@ -128,13 +95,76 @@ BlockMatrix assemble(const TetProblem& p, const Progress& progress) {
   return K;
 }
 
-SolveReport factorise(const BlockMatrix& K, const Held& h, const VectorMap& A, const Eigen::VectorXd& b,
-                      Eigen::VectorXd& x, double tolerance) {
+/// Matrix and supports of a problem.
+class TetSystem {
+ public:
+  TetSystem(const TetProblem& problem, DirichletData dirichlet, const Progress& progress)
+      : problem_(problem),
+        dirichlet_(std::move(dirichlet)),
+        cells_(assemble(problem, progress)),
+        withSprings_(cells_),
+        load_(problem.f_N.reshaped()) {
+    for (const Spring& s : problem.supports.springs) withSprings_.addDiagonal(s.node, s.k_N_m);
+  }
+
+  const DirichletData& dirichlet() const { return dirichlet_; }
+  const BlockMatrix& matrix() const { return withSprings_; }
+  int free() const { return static_cast<int>(dirichlet_.constrained.size() - dirichlet_.constrained.count()); }
+  /// Sets constrained degrees of freedom to 0.
+  void project(Eigen::VectorXd& v) const { v = dirichlet_.constrained.reshaped().select(0.0, v.array()).matrix(); }
+  void apply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+    withSprings_.apply(x, y);
+    project(y);
+  }
+  Eigen::VectorXd prescribed() const { return dirichlet_.value_m.reshaped(); }
+  /// Load on the free degrees of freedom, that of prescribed displacements included.
+  Eigen::VectorXd rightSide() const {
+    Eigen::VectorXd b;
+    withSprings_.apply(prescribed(), b);
+    b = load_ - b;
+    project(b);
+    return b;
+  }
+  /// Displacement, reactions and energy of u.
+  void recover(const Eigen::VectorXd& u, Solution& solution) const;
+  /// Norm of the rounding of A u in double precision.
+  double rounding(const Eigen::VectorXd& u) const;
+
+ private:
+  const TetProblem& problem_;
+  DirichletData dirichlet_;
+  BlockMatrix cells_;        ///< of the tetrahedra alone
+  BlockMatrix withSprings_;  ///< springs added
+  Eigen::VectorXd load_;
+};
+
+void TetSystem::recover(const Eigen::VectorXd& u, Solution& solution) const {
+  const Eigen::Index nodes = problem_.mesh.nodeCount();
+  Eigen::VectorXd internal, springs = Eigen::VectorXd::Zero(u.size());
+  cells_.apply(u, internal);
+  for (const Spring& s : problem_.supports.springs)
+    springs.segment<3>(3 * s.node) -= s.k_N_m * u.segment<3>(3 * s.node);
+  solution.u_m = u.reshaped(3, nodes);
+  solution.energy_J = 0.5 * u.dot(internal - springs);
+  solution.reaction_N =
+      reactionForces(dirichlet_.constrained, springs.reshaped(3, nodes), (internal - load_).reshaped(3, nodes));
+}
+
+double TetSystem::rounding(const Eigen::VectorXd& u) const {
+  Eigen::VectorXd forces = u;
+  for (int node = 0; node < problem_.mesh.nodeCount(); ++node)
+    forces.segment<3>(3 * node) = withSprings_.diagonalBlock(node).diagonal().cwiseProduct(u.segment<3>(3 * node));
+  project(forces);
+  return 4 * std::numeric_limits<double>::epsilon() * forces.norm();
+}
+
+/// Direct solve with refinement; the iterations are the corrections made.
+SolveReport factorise(const TetSystem& system, const Eigen::VectorXd& b, Eigen::VectorXd& x, double tolerance) {
   SolveReport report;
   report.kind = "factorised";
-  BlockFactor factor(K, h.held);
+  BlockFactor factor(system.matrix(), system.dirichlet().constrained);
   x.setZero(b.size());
-  if (!factor.factorise(K)) {
+  if (!factor.factorise(system.matrix())) {
     report.status = SolveStatus::Indefinite;
     report.residual = 1;
     return report;
@@ -145,7 +175,7 @@ SolveReport factorise(const BlockMatrix& K, const Held& h, const VectorMap& A, c
   for (; report.iterations < 8; ++report.iterations) {
     factor.solve(r, d);
     const Eigen::VectorXd better = x + d;
-    A(better, y);
+    system.apply(better, y);
     y = b - y;
     const double residual = y.norm() / b.norm();
     if (!std::isfinite(residual)) {
@@ -163,6 +193,30 @@ SolveReport factorise(const BlockMatrix& K, const Held& h, const VectorMap& A, c
   return report;
 }
 
+SolveReport iterate(const TetSystem& system, const SolverOptions& options, const Eigen::VectorXd& b, Eigen::VectorXd& x,
+                    const Progress& progress) {
+  const BlockJacobi jacobi(system.matrix(), system.dirichlet().constrained);
+  const VectorMap A = [&](const Eigen::VectorXd& p, Eigen::VectorXd& q) { system.apply(p, q); };
+  VectorMap M;
+  if (options.kind != SolverKind::Cg || options.preconditioner != Preconditioner::None)
+    M = [&](const Eigen::VectorXd& r, Eigen::VectorXd& z) { jacobi.apply(r, z); };
+  const int limit = options.iterations > 0 ? options.iterations : std::clamp(system.free(), 1000, 20000);
+  x.setZero(b.size());
+  SolveReport report = conjugateGradients(A, M, b, x, limit, options.tolerance, progress);
+  report.kind = M ? "block-jacobi-cg" : "cg";
+  return report;
+}
+
+/// True where the problem is solved directly. Throws BadInput on a solver that tetrahedra have not.
+bool isDirect(const SolverOptions& options, int free) {
+  const bool direct = options.kind != SolverKind::Cg && free <= StaticSolver::factorisedLimit;
+  if (options.kind == SolverKind::Factorised && !direct)
+    throw BadInput("the factorised solver was asked for with " + std::to_string(free) +
+                   " degrees of freedom; it is offered up to " + std::to_string(StaticSolver::factorisedLimit) +
+                   ": use auto or cg, or a coarser mesh");
+  return direct;
+}
+
 }  // namespace
 
 Solution solveTets(const TetProblem& p, const SolverOptions& options, const Progress& progress) {
@@ -172,37 +226,15 @@ Solution solveTets(const TetProblem& p, const SolverOptions& options, const Prog
   if (options.kind == SolverKind::Multigrid)
     throw BadInput("the multigrid solver works on voxels, not on tetrahedra; use auto, factorised or cg");
   check(p);
-  const Held h = readFixations(p);
-  requireHeld(p);
-  const int free = static_cast<int>(3 * p.mesh.nodeCount() - h.held.count());
-  const bool direct = options.kind != SolverKind::Cg && free <= StaticSolver::factorisedLimit;
-  if (options.kind == SolverKind::Factorised && !direct)
-    throw BadInput("the factorised solver was asked for with " + std::to_string(free) +
-                   " degrees of freedom; it is offered up to " + std::to_string(StaticSolver::factorisedLimit) +
-                   ": use auto or cg, or a coarser mesh");
+  DirichletData dirichlet = readDirichlet(p.supports.fixations, p.mesh.nodeCount());
+  requireGoodSprings(p.supports.springs, p.mesh.nodeCount());
+  requirePiecesSupported(p);
+  const bool direct = isDirect(options, static_cast<int>(dirichlet.constrained.size() - dirichlet.constrained.count()));
   progress.report(0, "assembling");
-  BlockMatrix K = assemble(p, progress);
-  const auto project = [&](Eigen::VectorXd& v) { v = h.held.reshaped().select(0.0, v.array()).matrix(); };
+  const TetSystem system(p, std::move(dirichlet), progress);
 
-  Eigen::VectorXd internal;  // of the tetrahedra alone, before springs join the matrix
-  const Eigen::VectorXd f = p.f_N.reshaped();
-  Eigen::VectorXd springs = Eigen::VectorXd::Zero(f.size());
-  const auto springForce = [&](const Eigen::VectorXd& u) {
-    springs.setZero();
-    for (const Spring& s : p.supports.springs) springs.segment<3>(3 * s.node) -= s.k_N_m * u.segment<3>(3 * s.node);
-  };
-  BlockMatrix withSprings = K;
-  for (const Spring& s : p.supports.springs) withSprings.addDiagonal(s.node, s.k_N_m);
-  const VectorMap A = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-    withSprings.apply(x, y);
-    project(y);
-  };
-
-  Eigen::VectorXd b;
-  withSprings.apply(h.value, b);
-  b = f - b;
-  project(b);
-  Eigen::VectorXd u = h.value;
+  Eigen::VectorXd b = system.rightSide();
+  Eigen::VectorXd u = system.prescribed();
   Solution solution;
   SolveReport& report = solution.report;
   const double scale = b.cwiseAbs().maxCoeff();
@@ -214,44 +246,16 @@ Solution solveTets(const TetProblem& p, const SolverOptions& options, const Prog
     b /= scale;
     Eigen::VectorXd x;
     progress.report(0.3, "solving");
-    if (direct) {
-      report = factorise(withSprings, h, A, b, x, options.tolerance);
-    } else {
-      const BlockJacobi jacobi(withSprings, h.held);
-      VectorMap M;
-      if (options.kind != SolverKind::Cg || options.preconditioner != Preconditioner::None)
-        M = [&](const Eigen::VectorXd& r, Eigen::VectorXd& z) { jacobi.apply(r, z); };
-      const int limit = options.iterations > 0 ? options.iterations : std::clamp(free, 1000, 20000);
-      x.setZero(b.size());
-      report = conjugateGradients(A, M, b, x, limit, options.tolerance, progress.part(0.3, 1.0));
-      report.kind = M ? "block-jacobi-cg" : "cg";
-    }
+    report =
+        direct ? factorise(system, b, x, options.tolerance) : iterate(system, options, b, x, progress.part(0.3, 1.0));
     report.why = options.kind == SolverKind::Auto
-                     ? "auto, tetrahedra with " + std::to_string(free) + " degrees of freedom"
+                     ? "auto, tetrahedra with " + std::to_string(system.free()) + " degrees of freedom"
                      : std::string("asked for");
     u += scale * x;
   }
   report.tolerance = options.tolerance;
-  K.apply(u, internal);
-  springForce(u);
-  if (report.status == SolveStatus::StoppedAtLimit) {
-    Eigen::VectorXd forces = u;
-    for (int node = 0; node < p.mesh.nodeCount(); ++node)
-      forces.segment<3>(3 * node) = withSprings.diagonalBlock(node).diagonal().cwiseProduct(u.segment<3>(3 * node));
-    project(forces);
-    const double floor = 4 * std::numeric_limits<double>::epsilon() * forces.norm() / (scale * b.norm());
-    if (report.residual <= floor) {
-      std::ostringstream note;
-      note << "; the residual reached the rounding of double precision, " << floor << ", above the tolerance asked for";
-      report.why += note.str();
-      report.tolerance = floor;
-      report.status = SolveStatus::Converged;
-    }
-  }
-  solution.energy_J = 0.5 * u.dot(internal - springs);
-  const Eigen::VectorXd reaction = h.held.reshaped().select((internal - f).array(), springs.array()).matrix();
-  solution.u_m = u.reshaped(3, p.mesh.nodeCount());
-  solution.reaction_N = reaction.reshaped(3, p.mesh.nodeCount());
+  if (report.status == SolveStatus::StoppedAtLimit) acceptRounding(system.rounding(u) / (scale * b.norm()), report);
+  system.recover(u, solution);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return solution;
 }
@@ -270,12 +274,12 @@ TetProblem onTetrahedra(const Problem& problem, TetOrder order, TetPattern patte
   p.f_N.leftCols(voxels.nodeCount()) = problem.f_N;
   if (order == TetOrder::Linear) return p;
 
-  const Held h = readFixations(p);
+  const DirichletData dirichlet = readDirichlet(p.supports.fixations, p.mesh.nodeCount());
   Eigen::Array<bool, 3, Eigen::Dynamic> middle =
       Eigen::Array<bool, 3, Eigen::Dynamic>::Constant(3, p.mesh.nodeCount(), false);
   const auto hold = [&](const std::vector<int>& corners, const std::vector<int>& middles) {
     for (int c = 0; c < 3; ++c)
-      if (std::all_of(corners.begin(), corners.end(), [&](int node) { return h.held(c, node); }))
+      if (std::all_of(corners.begin(), corners.end(), [&](int node) { return dirichlet.constrained(c, node); }))
         for (const int node : middles) middle(c, node) = true;
   };
   for (const TetFace& face : exteriorFaces(p.mesh)) {
@@ -294,7 +298,7 @@ TetProblem onTetrahedra(const Problem& problem, TetOrder order, TetPattern patte
   for (int node = voxels.nodeCount(); node < p.mesh.nodeCount(); ++node) {
     if (!middle.col(node).any()) continue;
     Fixation f{node, {middle(0, node), middle(1, node), middle(2, node)}, Eigen::Vector3d::Zero()};
-    f.value_m = 0.5 * (h.value.segment<3>(3 * ends(0, node)) + h.value.segment<3>(3 * ends(1, node)));
+    f.value_m = 0.5 * (dirichlet.value_m.col(ends(0, node)) + dirichlet.value_m.col(ends(1, node)));
     p.supports.fixations.push_back(f);
   }
   return p;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mechanics/voxel_operator.h"
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
 #include <map>
-#include <sstream>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -13,26 +10,6 @@ namespace glisson::mechanics {
 namespace {
 
 constexpr std::size_t nodeChunk = 16384;
-
-void checkNode(int node, int nodeCount, const char* what) {
-  if (node >= 0 && node < nodeCount) return;
-  throw BadInput(std::string(what) + " at node " + std::to_string(node) + ", but the mesh has nodes 0 to " +
-                 std::to_string(nodeCount - 1));
-}
-
-void checkSpring(const Spring& spring) {
-  const Eigen::Matrix3d& k = spring.k_N_m;
-  const double size = k.cwiseAbs().maxCoeff();
-  bool good = k.allFinite() && (k - k.transpose()).cwiseAbs().maxCoeff() <= 1e-10 * size;
-  if (good) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(k, Eigen::EigenvaluesOnly);
-    good = eigen.eigenvalues()[0] >= -1e-10 * size;
-  }
-  if (good) return;
-  std::ostringstream what;
-  what << "the spring at node " << spring.node << " is not symmetric positive semi-definite and finite (N/m):\n" << k;
-  throw BadInput(what.str());
-}
 
 }  // namespace
 
@@ -51,28 +28,11 @@ VoxelOperator::VoxelOperator(const VoxelBody& body, HexElement element, const Su
 
 void VoxelOperator::readSupports(const Supports& supports) {
   const int nodes = mesh_.nodeCount();
-  fixed_.setConstant(3, nodes, false);
-  prescribed_m_.setZero(3, nodes);
-  for (const Fixation& f : supports.fixations) {
-    checkNode(f.node, nodes, "a fixation");
-    for (int c = 0; c < 3; ++c) {
-      if (!f.axis[static_cast<std::size_t>(c)]) continue;
-      const double value = f.value_m[c];
-      if (!std::isfinite(value))
-        throw BadInput("the prescribed displacement of node " + std::to_string(f.node) + " is not finite");
-      if (fixed_(c, f.node) && prescribed_m_(c, f.node) != value)
-        throw BadInput("two fixations of node " + std::to_string(f.node) + " disagree: " +
-                       std::to_string(prescribed_m_(c, f.node)) + " m and " + std::to_string(value) + " m");
-      fixed_(c, f.node) = true;
-      prescribed_m_(c, f.node) = value;
-    }
-  }
+  dirichlet_ = readDirichlet(supports.fixations, nodes);
+  requireGoodSprings(supports.springs, nodes);
   std::map<int, Eigen::Matrix3d> total;
-  for (const Spring& s : supports.springs) {
-    checkNode(s.node, nodes, "a spring");
-    checkSpring(s);
+  for (const Spring& s : supports.springs)
     total.try_emplace(s.node, Eigen::Matrix3d::Zero()).first->second += 0.5 * (s.k_N_m + s.k_N_m.transpose());
-  }
   for (const auto& [node, k] : total) {
     springs_.push_back({node, k});
     lattice_.springs.push_back({slotOfNode(node), {k(0, 0), k(0, 1), k(0, 2), k(1, 1), k(1, 2), k(2, 2)}});
@@ -80,7 +40,7 @@ void VoxelOperator::readSupports(const Supports& supports) {
   const std::size_t n = lattice_.lattice->nodeSlots();
   for (int c = 0; c < 3; ++c)
     for (int node = 0; node < nodes; ++node)
-      if (fixed_(c, node)) lattice_.fixed.push_back(static_cast<std::size_t>(c) * n + slotOfNode(node));
+      if (isFixed(node, c)) lattice_.fixed.push_back(static_cast<std::size_t>(c) * n + slotOfNode(node));
   fixedCount_ = static_cast<int>(lattice_.fixed.size());
 }
 
@@ -201,7 +161,7 @@ Eigen::VectorXd VoxelOperator::lumpedMass_kg() const {
 
 void VoxelOperator::project(NodalField& field) const {
   if (field.cols() != mesh_.nodeCount()) throw BadArgument("project: the field does not belong to this mesh");
-  field = fixed_.select(0.0, field.array()).matrix();
+  field = fixed().select(0.0, field.array()).matrix();
 }
 
 }  // namespace glisson::mechanics

@@ -8,6 +8,7 @@
 #include "mechanics/hex_element.h"
 #include "mechanics/lattice_operator.h"
 #include "mechanics/problem.h"
+#include "mechanics/supports.h"
 
 namespace glisson::mechanics {
 
@@ -48,12 +49,14 @@ class VoxelOperator {
   /// Row sums of the consistent mass, kg per node; they add up to ρV.
   Eigen::VectorXd lumpedMass_kg() const;
 
-  bool isFixed(int node, int axis) const { return fixed_(axis, node); }
+  bool isFixed(int node, int axis) const { return dirichlet_.constrained(axis, node); }
+  /// 3 × nodeCount.
+  const Eigen::Array<bool, 3, Eigen::Dynamic>& fixed() const { return dirichlet_.constrained; }
   int fixedCount() const { return fixedCount_; }
   /// Sets fixed degrees of freedom to 0.
   void project(NodalField& field) const;
   /// Prescribed displacement at fixed degrees of freedom, 0 elsewhere, m.
-  const NodalField& prescribed_m() const { return prescribed_m_; }
+  const NodalField& prescribed_m() const { return dirichlet_.value_m; }
   /// Total spring per node that has any, ascending by node, N/m.
   const std::vector<Spring>& springs() const { return springs_; }
 
@@ -76,8 +79,7 @@ class VoxelOperator {
   HexMatrix K0_;
   LatticeOperator<double> lattice_;
   std::vector<std::size_t> slotOfNode_;
-  Eigen::Array<bool, 3, Eigen::Dynamic> fixed_;
-  NodalField prescribed_m_;
+  DirichletData dirichlet_;
   std::vector<Spring> springs_;
   int fixedCount_ = 0;
 };

@@ -23,7 +23,7 @@ class LargeDeformationModel {
   LargeDeformationModel(const Problem& problem, LargeDeformationKind kind, HexElement element);
 
   const VoxelOperator& op() const { return op_; }
-  const Eigen::Array<bool, 3, Eigen::Dynamic>& held() const { return held_; }
+  const Eigen::Array<bool, 3, Eigen::Dynamic>& held() const { return op_.fixed(); }
   /// Energy (J) and its gradient (N) at u; with a tangent, its matrix is assembled. False where a cell is inside out.
   bool evaluate(const Eigen::VectorXd& u, Tangent tangent, double& energy_J, Eigen::VectorXd& force_N);
   const BlockMatrix& tangent() const { return *tangent_; }
@@ -35,7 +35,6 @@ class LargeDeformationModel {
   NeoHookeanHex neoHookean_;
   Eigen::MatrixXi elements_;  ///< 8 × cells
   Eigen::VectorXd E_;
-  Eigen::Array<bool, 3, Eigen::Dynamic> held_;
   std::unique_ptr<BlockMatrix> tangent_;
   std::vector<HexResponse> batch_;
 };
