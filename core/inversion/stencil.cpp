@@ -22,10 +22,8 @@ std::pair<Complex, Complex> valueAndSlope(const std::array<double, n>& series, C
   return {value, slope};
 }
 
-}  // namespace
-
-Stencil::Stencil(const Eigen::Vector3d& spacing_mm, double radius_mm, int dimensions)
-    : dimensions_(dimensions), radius_mm_(radius_mm) {
+/// Voxels to either side of the middle that a window of this radius holds. Throws BadInput where they are too few.
+Eigen::Vector3i reachOf(const Eigen::Vector3d& spacing_mm, double radius_mm, int dimensions) {
   Eigen::Vector3i reach = (radius_mm / spacing_mm.array() + 1e-9).floor().cast<int>();
   if (dimensions == 2) reach.z() = 0;
   for (int a = 0; a < dimensions; ++a)
@@ -36,9 +34,27 @@ Stencil::Stencil(const Eigen::Vector3d& spacing_mm, double radius_mm, int dimens
           << (a == 2 ? ", or invert slice by slice" : "");
       throw BadInput(why.str());
     }
+  return reach;
+}
+
+/// Monomials of degree 2 and less at x: the constant, the linear ones, squares, mixed ones.
+Eigen::VectorXd monomials(const Eigen::Vector3d& x, int dimensions) {
+  Eigen::VectorXd row(dimensions == 2 ? 6 : 10);
+  if (dimensions == 2)
+    row << 1, x.x(), x.y(), x.x() * x.x(), x.y() * x.y(), x.x() * x.y();
+  else
+    row << 1, x.x(), x.y(), x.z(), x.x() * x.x(), x.y() * x.y(), x.z() * x.z(), x.x() * x.y(), x.x() * x.z(),
+        x.y() * x.z();
+  return row;
+}
+
+}  // namespace
+
+Stencil::Stencil(const Eigen::Vector3d& spacing_mm, double radius_mm, int dimensions)
+    : dimensions_(dimensions), radius_mm_(radius_mm) {
+  const Eigen::Vector3i reach = reachOf(spacing_mm, radius_mm, dimensions);
   // The weight falls to zero smoothly just outside the window: then it sees all directions alike, whatever the voxels.
   const double edge_mm = radius_mm + 0.5 * spacing_mm.head(dimensions).minCoeff();
-  const Eigen::Index terms2 = dimensions == 2 ? 6 : 10;
   std::vector<Eigen::VectorXd> rows;
   std::vector<double> weights, radii;
   for (int k = -reach.z(); k <= reach.z(); ++k)
@@ -46,17 +62,12 @@ Stencil::Stencil(const Eigen::Vector3d& spacing_mm, double radius_mm, int dimens
       for (int i = -reach.x(); i <= reach.x(); ++i) {
         const Eigen::Vector3d x = spacing_mm.cwiseProduct(Eigen::Vector3d(i, j, k)) / radius_mm;
         if (x.norm() > 1.0 + 1e-9) continue;
-        Eigen::VectorXd row(terms2);
-        if (dimensions == 2)
-          row << 1, x.x(), x.y(), x.x() * x.x(), x.y() * x.y(), x.x() * x.y();
-        else
-          row << 1, x.x(), x.y(), x.z(), x.x() * x.x(), x.y() * x.y(), x.z() * x.z(), x.x() * x.y(), x.x() * x.z(),
-              x.y() * x.z();
-        rows.push_back(row);
+        rows.push_back(monomials(x, dimensions));
         radii.push_back(x.norm());
         weights.push_back(std::pow(1.0 - std::pow(x.norm() * radius_mm / edge_mm, 2), 2));
         taps_.push_back({{i, j, k}, 0.0, Eigen::Vector3d::Zero(), 0.0});
       }
+  const Eigen::Index terms2 = rows.front().size();
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(terms2, terms2);
   for (std::size_t t = 0; t < rows.size(); ++t) normal += weights[t] * rows[t] * rows[t].transpose();
   const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
@@ -66,6 +77,10 @@ Stencil::Stencil(const Eigen::Vector3d& spacing_mm, double radius_mm, int dimens
     taps_[t].gradient.head(dimensions) = c.segment(1, dimensions) / radius_mm;
     taps_[t].laplacian = 2.0 * c.segment(1 + dimensions, dimensions).sum() / (radius_mm * radius_mm);
   }
+  expandResponse(radii);
+}
+
+void Stencil::expandResponse(const std::vector<double>& radii) {
   // Mean of cos(k n·x) over directions n: J0(kr) in the plane, sin(kr)/(kr) in space; both are power series in k²r².
   double coefficient = 1.0;
   for (std::size_t m = 0; m < terms; ++m) {
@@ -75,16 +90,16 @@ Stencil::Stencil(const Eigen::Vector3d& spacing_mm, double radius_mm, int dimens
       laplacianSeries_[m] -= moment * taps_[t].laplacian;
     }
     const double next = static_cast<double>(m) + 1.0;
-    coefficient /= dimensions == 2 ? -4.0 * next * next : -2.0 * next * (2.0 * next + 1.0);
+    coefficient /= dimensions_ == 2 ? -4.0 * next * next : -2.0 * next * (2.0 * next + 1.0);
   }
   laplacianSeries_[0] = 0.0;  // exact for constants; only rounding was left
   // Waves count as resolved while the response still rises at a third of its first slope (k R up to about 2.5).
   const double step = 0.01;
   double last = 0.0;
   for (double x = step; x < 16.0; x += step) {
-    const double now = response(x / (radius_mm * radius_mm)).real() * radius_mm * radius_mm;
+    const double now = response(x / (radius_mm_ * radius_mm_)).real() * radius_mm_ * radius_mm_;
     if (now - last < step / 3.0) break;
-    largest_mm2_ = x / (radius_mm * radius_mm);
+    largest_mm2_ = x / (radius_mm_ * radius_mm_);
     last = now;
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/Dense>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 #include "base/error.h"
@@ -73,6 +74,77 @@ void train(VoxelSystem& system, const Eigen::VectorXd& f, const CondensedDynamic
   }
 }
 
+void check(const CondensedDynamicOptions& options) {
+  if (!(options.h_s > 0.0) || !std::isfinite(options.h_s))
+    throw BadInput("condensed dynamics: the time step must be positive, not " + std::to_string(options.h_s));
+  if (options.vectors < 2)
+    throw BadInput("condensed dynamics: " + std::to_string(options.vectors) + " vectors per input; use 2 or more");
+  if (options.training < 0) throw BadInput("condensed dynamics: a negative number of training steps");
+  if (!(options.rayleighAlpha_1_s >= 0.0 && options.rayleighBeta_s >= 0.0))
+    throw BadInput("condensed dynamics: Rayleigh damping must not be negative");
+}
+
+/// Vectors that the motion is condensed to: M-orthonormal, by moments of the response about rest, or trained.
+class Basis {
+ public:
+  Basis(StaticSolver& solver, VoxelSystem& system, const CondensedDynamicOptions& options)
+      : solver_(solver), system_(system), options_(options) {}
+
+  /// Adds what the response to a tool input takes; tick is called before each vector.
+  void add(const NodalField& input_N, std::size_t input, const std::function<void()>& tick) {
+    Eigen::VectorXd b = flat(input_N);
+    NodalField f_N = input_N;
+    solver_.voxels().project(f_N);
+    if (options_.training > 0) {
+      extend(system_, vectors_, restUnder(b, input, 0));
+      train(system_, flat(f_N), options_, input, vectors_);
+      return;
+    }
+    for (int k = 0; k + 1 < options_.vectors; ++k) {
+      tick();
+      const Eigen::VectorXd x = restUnder(b, input, k);
+      if (!(x.norm() > 0.0) || !extend(system_, vectors_, x)) break;
+      // The next moment of the response about rest, from the orthogonal part: the same span, and no loss of digits.
+      system_.applyM(vectors_.back(), b);
+    }
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
+    require(system_.solve(flat(f_N), x), input, options_.vectors - 1);
+    extend(system_, vectors_, std::move(x));
+  }
+  const std::vector<Eigen::VectorXd>& vectors() const { return vectors_; }
+
+ private:
+  static void require(const SolveReport& report, std::size_t input, int vector) {
+    if (!report.converged())
+      throw SolverFailed("condensed dynamics: vector " + std::to_string(vector) + " of tool input " +
+                             std::to_string(input) + " ended with " + describe(report.status),
+                         report.iterations, report.residual, report.tolerance);
+  }
+  Eigen::VectorXd restUnder(const Eigen::VectorXd& b, std::size_t input, int vector) {
+    const Solution rest = solver_.solve(Eigen::Map<const NodalField>(b.data(), 3, b.size() / 3));
+    require(rest.report, input, vector);
+    return flat(rest.u_m);
+  }
+
+  StaticSolver& solver_;
+  VoxelSystem& system_;
+  const CondensedDynamicOptions& options_;
+  std::vector<Eigen::VectorXd> vectors_;
+};
+
+/// Displacement of a landmark in the nodal field u.
+Eigen::Vector3d displacementOf(const Landmark& landmark, const Eigen::VectorXd& u) {
+  if (landmark.nodes.size() != landmark.weights.size())
+    throw BadArgument("condensation: a landmark's nodes and weights differ in number");
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < landmark.nodes.size(); ++i) {
+    const int node = landmark.nodes[i];
+    if (node < 0 || 3 * node >= u.size()) throw BadArgument("condensation: landmark at node " + std::to_string(node));
+    sum += landmark.weights[i] * u.segment<3>(3 * node);
+  }
+  return sum;
+}
+
 }  // namespace
 
 CondensedDynamics::CondensedDynamics(StaticSolver& solver, const std::vector<NodalField>& inputs,
@@ -80,12 +152,7 @@ CondensedDynamics::CondensedDynamics(StaticSolver& solver, const std::vector<Nod
                                      const Progress& progress)
     : options_(options) {
   const double h = options.h_s, alpha = options.rayleighAlpha_1_s, beta = options.rayleighBeta_s;
-  if (!(h > 0.0) || !std::isfinite(h))
-    throw BadInput("condensed dynamics: the time step must be positive, not " + std::to_string(h));
-  if (options.vectors < 2)
-    throw BadInput("condensed dynamics: " + std::to_string(options.vectors) + " vectors per input; use 2 or more");
-  if (options.training < 0) throw BadInput("condensed dynamics: a negative number of training steps");
-  if (!(alpha >= 0.0 && beta >= 0.0)) throw BadInput("condensed dynamics: Rayleigh damping must not be negative");
+  check(options);
   if (!solver.voxels().prescribed_m().isZero(0.0))
     throw BadInput(
         "condensation: the supports prescribe displacements that are not zero; fix those nodes at 0 and give "
@@ -97,63 +164,26 @@ CondensedDynamics::CondensedDynamics(StaticSolver& solver, const std::vector<Nod
   VoxelSystem system(voxels, cg);
   system.prepare(1.0 + h * alpha, h * (h + beta));
 
-  std::vector<Eigen::VectorXd> basis;
+  Basis basis(solver, system, options);
   const auto total = static_cast<double>(inputs.size()) * options.vectors;
   double done = 0.0;
-  const auto require = [](const SolveReport& report, std::size_t input, int vector) {
-    if (!report.converged())
-      throw SolverFailed("condensed dynamics: vector " + std::to_string(vector) + " of tool input " +
-                             std::to_string(input) + " ended with " + describe(report.status),
-                         report.iterations, report.residual, report.tolerance);
-  };
-  const auto restUnder = [&](const Eigen::VectorXd& b, std::size_t j, int vector) {
-    const Solution rest = solver.solve(Eigen::Map<const NodalField>(b.data(), 3, b.size() / 3));
-    require(rest.report, j, vector);
-    return flat(rest.u_m);
-  };
   for (std::size_t j = 0; j < inputs.size(); ++j) {
-    Eigen::VectorXd b = flat(inputs[j]);
-    NodalField f_N = inputs[j];
-    voxels->project(f_N);
-    if (options.training > 0) {
+    if (options.training > 0)
       progress.report(static_cast<double>(j) / static_cast<double>(inputs.size()), "condensing the dynamics");
-      extend(system, basis, restUnder(b, j, 0));
-      train(system, flat(f_N), options, j, basis);
-      continue;
-    }
-    for (int k = 0; k + 1 < options.vectors; ++k) {
-      progress.report(++done / total, "condensing the dynamics");
-      const Eigen::VectorXd x = restUnder(b, j, k);
-      if (!(x.norm() > 0.0) || !extend(system, basis, x)) break;
-      // The next moment of the response about rest, from the orthogonal part: the same span, and no loss of digits.
-      system.applyM(basis.back(), b);
-    }
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size());
-    require(system.solve(flat(f_N), x), j, options.vectors - 1);
-    extend(system, basis, std::move(x));
+    basis.add(inputs[j], j, [&] { progress.report(++done / total, "condensing the dynamics"); });
   }
-  const auto n = static_cast<Eigen::Index>(basis.size());
+  const auto n = static_cast<Eigen::Index>(basis.vectors().size());
   K_.resize(n, n);
   F_.resize(n, static_cast<Eigen::Index>(inputs.size()));
   L_.resize(3 * static_cast<Eigen::Index>(landmarks.size()), n);
   Eigen::VectorXd Kb(voxels->dofs());
   for (Eigen::Index j = 0; j < n; ++j) {
-    const Eigen::VectorXd& b = basis[static_cast<std::size_t>(j)];
+    const Eigen::VectorXd& b = basis.vectors()[static_cast<std::size_t>(j)];
     system.applyK(b, Kb);
-    for (Eigen::Index i = 0; i < n; ++i) K_(i, j) = basis[static_cast<std::size_t>(i)].dot(Kb);
+    for (Eigen::Index i = 0; i < n; ++i) K_(i, j) = basis.vectors()[static_cast<std::size_t>(i)].dot(Kb);
     for (std::size_t i = 0; i < inputs.size(); ++i) F_(j, static_cast<Eigen::Index>(i)) = b.dot(flat(inputs[i]));
-    for (std::size_t l = 0; l < landmarks.size(); ++l) {
-      if (landmarks[l].nodes.size() != landmarks[l].weights.size())
-        throw BadArgument("condensation: a landmark's nodes and weights differ in number");
-      Eigen::Vector3d u = Eigen::Vector3d::Zero();
-      for (std::size_t i = 0; i < landmarks[l].nodes.size(); ++i) {
-        const int node = landmarks[l].nodes[i];
-        if (node < 0 || node >= voxels->mesh().nodeCount())
-          throw BadArgument("condensation: landmark at node " + std::to_string(node));
-        u += landmarks[l].weights[i] * b.segment<3>(3 * node);
-      }
-      L_.block<3, 1>(3 * static_cast<Eigen::Index>(l), j) = u;
-    }
+    for (std::size_t l = 0; l < landmarks.size(); ++l)
+      L_.block<3, 1>(3 * static_cast<Eigen::Index>(l), j) = displacementOf(landmarks[l], b);
   }
   K_ = (0.5 * (K_ + K_.transpose())).eval();
   const Eigen::MatrixXd A = (1.0 + h * alpha) * Eigen::MatrixXd::Identity(n, n) + h * (h + beta) * K_;

@@ -159,106 +159,149 @@ std::vector<FrameBasis::Column> FrameBasis::connectedBalls(const VoxelMesh& mesh
   return columns;
 }
 
-std::vector<FrameBasis::Column> FrameBasis::voronoi(const VoxelMesh& mesh, const Progress& progress) {
-  const NodeGraph graph(mesh);
+namespace {
+
+using Distances = std::vector<std::pair<int, double>>;  ///< {node, m}
+
+/// The Voronoi cells of the sites by paths through the body.
+struct Cells {
+  std::vector<Distances> start;           ///< nodes next to each site
+  std::vector<double> distance_m;         ///< of each node to its site
+  std::vector<int> owner;                 ///< site of each node
+  std::vector<std::set<int>> neighbours;  ///< cells that touch
+  std::vector<std::vector<int>> members;  ///< nodes of each cell, ascending
+  int lost = 0;                           ///< nodes that no path joins to a site: they follow the nearest frame
+};
+
+Cells cellsOf(const VoxelMesh& mesh, const NodeGraph& graph, const Sites& sites) {
   const auto nodeCount = static_cast<std::size_t>(mesh.nodeCount());
-  const std::vector<int> owned = firstOwned(sites_);
-  std::vector<double> distance(nodeCount, infinity);
-  std::vector<int> owner(nodeCount, -1);
-  std::vector<std::vector<std::pair<int, double>>> start(static_cast<std::size_t>(frames()));
-  std::vector<std::pair<int, double>> sources;
-  for (int f = 0; f < frames(); ++f) {
-    start[static_cast<std::size_t>(f)] = startNodes(mesh, sites_.position_m.col(f), owned[static_cast<std::size_t>(f)]);
-    for (const auto& [node, d] : start[static_cast<std::size_t>(f)]) {
-      if (d >= distance[static_cast<std::size_t>(node)]) continue;
-      distance[static_cast<std::size_t>(node)] = d;
-      owner[static_cast<std::size_t>(node)] = f;
+  const auto count = static_cast<std::size_t>(sites.count());
+  const std::vector<int> owned = firstOwned(sites);
+  Cells cells{std::vector<Distances>(count),        std::vector<double>(nodeCount, infinity),
+              std::vector<int>(nodeCount, -1),      std::vector<std::set<int>>(count),
+              std::vector<std::vector<int>>(count), 0};
+  for (int f = 0; f < sites.count(); ++f) {
+    const auto at = static_cast<std::size_t>(f);
+    cells.start[at] = startNodes(mesh, sites.position_m.col(f), owned[at]);
+    for (const auto& [node, d] : cells.start[at]) {
+      if (d >= cells.distance_m[static_cast<std::size_t>(node)]) continue;
+      cells.distance_m[static_cast<std::size_t>(node)] = d;
+      cells.owner[static_cast<std::size_t>(node)] = f;
     }
   }
+  Distances sources;
   for (std::size_t n = 0; n < nodeCount; ++n)
-    if (owner[n] >= 0) sources.emplace_back(static_cast<int>(n), distance[n]);
+    if (cells.owner[n] >= 0) sources.emplace_back(static_cast<int>(n), cells.distance_m[n]);
   graph.shortest(
-      sources, [](int) { return true; }, distance, &owner);
-  int lost = 0;
+      sources, [](int) { return true; }, cells.distance_m, &cells.owner);
   for (std::size_t n = 0; n < nodeCount; ++n)
-    if (owner[n] < 0) {
-      owner[n] = sites_.ownerOfNode[n], ++lost;
-      distance[n] = (mesh.position_m(static_cast<int>(n)) - sites_.position_m.col(owner[n])).norm();
+    if (cells.owner[n] < 0) {
+      cells.owner[n] = sites.ownerOfNode[n], ++cells.lost;
+      cells.distance_m[n] = (mesh.position_m(static_cast<int>(n)) - sites.position_m.col(cells.owner[n])).norm();
     }
-  if (lost > 0)
-    notes_.push_back(std::to_string(lost) +
-                     " voxel nodes in islands without a mesh-free site follow the nearest frame");
-
-  std::vector<std::set<int>> neighbours(static_cast<std::size_t>(frames()));
-  std::vector<std::vector<int>> members(static_cast<std::size_t>(frames()));
   for (std::size_t n = 0; n < nodeCount; ++n) {
-    members[static_cast<std::size_t>(owner[n])].push_back(static_cast<int>(n));
+    const auto own = static_cast<std::size_t>(cells.owner[n]);
+    cells.members[own].push_back(static_cast<int>(n));
     graph.forNeighbours(static_cast<int>(n), [&](int next, double) {
-      const int other = owner[static_cast<std::size_t>(next)];
-      if (other != owner[n]) neighbours[static_cast<std::size_t>(owner[n])].insert(other);
+      const int other = cells.owner[static_cast<std::size_t>(next)];
+      if (other != cells.owner[n]) cells.neighbours[own].insert(other);
     });
   }
+  return cells;
+}
 
-  const double edge = mesh.h_m().maxCoeff();
-  std::vector<Column> columns(static_cast<std::size_t>(frames()));
-  parallelChunks(columns.size(), 1, [&](std::size_t begin, std::size_t) {
-    progress.check();
-    const int f = static_cast<int>(begin);
-    const std::set<int>& near = neighbours[begin];
-    const auto inside = [&](int node) {
-      const int o = owner[static_cast<std::size_t>(node)];
-      return o == f || near.count(o) > 0;
-    };
-    std::vector<int> domain = members[begin];
-    for (const int g : near)
-      domain.insert(domain.end(), members[static_cast<std::size_t>(g)].begin(),
-                    members[static_cast<std::size_t>(g)].end());
-    std::sort(domain.begin(), domain.end());
-    // Distances to the border of the cell, and to where the kernel is zero: the neighbouring sites and all other cells.
-    std::vector<double> border(nodeCount, infinity), zero(nodeCount, infinity);
-    std::vector<std::pair<int, double>> borderSources, zeroSources;
-    for (const int n : domain)
-      graph.forNeighbours(n, [&](int next, double length) {
+/// The Voronoi kernel of one site: 1 at the site, 1/2 on the border of its cell, 0 at the neighbours' sites.
+class VoronoiKernel {
+ public:
+  VoronoiKernel(const NodeGraph& graph, const Cells& cells, int site)
+      : graph_(graph), cells_(cells), site_(site), near_(cells.neighbours[static_cast<std::size_t>(site)]) {
+    domain_ = cells.members[static_cast<std::size_t>(site)];
+    for (const int g : near_)
+      domain_.insert(domain_.end(), cells.members[static_cast<std::size_t>(g)].begin(),
+                     cells.members[static_cast<std::size_t>(g)].end());
+    std::sort(domain_.begin(), domain_.end());
+  }
+
+  /// edge_m: longest edge of a cell of the mesh.
+  std::vector<std::pair<int, double>> values(double edge_m) {
+    measure(edge_m);
+    std::vector<std::pair<int, double>> column;
+    for (const int n : domain_)
+      if (const double phi = valueAt(static_cast<std::size_t>(n)); phi > 0.0) column.emplace_back(n, phi);
+    return column;
+  }
+
+ private:
+  bool inside(int node) const {
+    const int o = cells_.owner[static_cast<std::size_t>(node)];
+    return o == site_ || near_.count(o) > 0;
+  }
+  /// Distances to the border of the cell, and to where the kernel is zero: the neighbouring sites and all other cells.
+  void measure(double edge_m) {
+    const auto within = [this](int node) { return inside(node); };
+    const std::vector<int>& owner = cells_.owner;
+    border_.assign(owner.size(), infinity);
+    zero_.assign(owner.size(), infinity);
+    Distances borderSources, zeroSources;
+    for (const int n : domain_)
+      graph_.forNeighbours(n, [&](int next, double length) {
         const auto a = static_cast<std::size_t>(n), b = static_cast<std::size_t>(next);
-        if ((owner[a] == f) != (owner[b] == f)) {
+        if ((owner[a] == site_) != (owner[b] == site_)) {
           // The point of the edge that is as far from one site as from the other.
-          const double t = 0.5 * (distance[b] + length - distance[a]);
+          const double t = 0.5 * (cells_.distance_m[b] + length - cells_.distance_m[a]);
           borderSources.emplace_back(n, std::clamp(t, 0.0, length));
         }
         if (!inside(next)) zeroSources.emplace_back(n, 0.5 * length);
       });
-    graph.shortest(borderSources, inside, border);
+    graph_.shortest(borderSources, within, border_);
     // The kernel ends, in each neighbouring cell, on the surface that is as far from the border as the neighbour's
     // site.
     std::map<int, double> reach;
-    for (const int g : near)
-      for (const auto& [node, d] : start[static_cast<std::size_t>(g)]) {
-        const double through = border[static_cast<std::size_t>(node)] + d;
+    for (const int g : near_)
+      for (const auto& [node, d] : cells_.start[static_cast<std::size_t>(g)]) {
+        const double through = border_[static_cast<std::size_t>(node)] + d;
         const auto [it, fresh] = reach.emplace(g, through);
         if (!fresh) it->second = std::min(it->second, through);
       }
-    for (const int n : domain) {
+    for (const int n : domain_) {
       const auto at = static_cast<std::size_t>(n);
-      if (owner[at] == f || !std::isfinite(border[at])) continue;
-      const double ahead = reach[owner[at]] - border[at];
-      if (ahead <= edge) zeroSources.emplace_back(n, std::max(0.0, ahead));
+      if (owner[at] == site_ || !std::isfinite(border_[at])) continue;
+      const double ahead = reach[owner[at]] - border_[at];
+      if (ahead <= edge_m) zeroSources.emplace_back(n, std::max(0.0, ahead));
     }
-    graph.shortest(zeroSources, inside, zero);
-    for (const int n : domain) {
-      const auto at = static_cast<std::size_t>(n);
-      double phi = 1.0;
-      if (owner[at] == f) {
-        if (std::isfinite(border[at]) && border[at] + distance[at] > 0.0)
-          phi = 0.5 * (1.0 + border[at] / (border[at] + distance[at]));
-      } else if (!std::isfinite(border[at])) {
-        phi = 0.0;
-      } else if (std::isfinite(zero[at])) {
-        phi = border[at] + zero[at] > 0.0 ? 0.5 * zero[at] / (border[at] + zero[at]) : 0.0;
-      } else {
-        phi = 0.5;
-      }
-      if (phi > 0.0) columns[begin].emplace_back(n, phi);
+    graph_.shortest(zeroSources, within, zero_);
+  }
+  double valueAt(std::size_t at) const {
+    if (cells_.owner[at] == site_) {
+      const double whole = border_[at] + cells_.distance_m[at];
+      return std::isfinite(border_[at]) && whole > 0.0 ? 0.5 * (1.0 + border_[at] / whole) : 1.0;
     }
+    if (!std::isfinite(border_[at])) return 0.0;
+    if (!std::isfinite(zero_[at])) return 0.5;
+    const double whole = border_[at] + zero_[at];
+    return whole > 0.0 ? 0.5 * zero_[at] / whole : 0.0;
+  }
+
+  const NodeGraph& graph_;
+  const Cells& cells_;
+  int site_;
+  const std::set<int>& near_;
+  std::vector<int> domain_;            ///< nodes of the cell and its neighbours, ascending
+  std::vector<double> border_, zero_;  ///< m
+};
+
+}  // namespace
+
+std::vector<FrameBasis::Column> FrameBasis::voronoi(const VoxelMesh& mesh, const Progress& progress) {
+  const NodeGraph graph(mesh);
+  const Cells cells = cellsOf(mesh, graph, sites_);
+  if (cells.lost > 0)
+    notes_.push_back(std::to_string(cells.lost) +
+                     " voxel nodes in islands without a mesh-free site follow the nearest frame");
+  std::vector<Column> columns(static_cast<std::size_t>(frames()));
+  parallelChunks(columns.size(), 1, [&](std::size_t begin, std::size_t) {
+    progress.check();
+    columns[begin] = VoronoiKernel(graph, cells, static_cast<int>(begin)).values(mesh.h_m().maxCoeff());
   });
   return columns;
 }

@@ -99,56 +99,66 @@ void reachEnoughSites(const VoxelMesh& mesh, const Sites& sites, int least, Vect
   for (const VectorXd& w : wider) radius_m = radius_m.cwiseMax(w);
 }
 
+/// Weight of a site at a node.
+struct Entry {
+  int frame;
+  double* value;
+};
+
+/// Turns the weights at a node x into moving least squares functions. Centred at the weighted mean, the constant is
+/// exact whatever becomes of the rest:
+/// ψᵢ = wᵢ (1 + c·(pᵢ − p̄)),  S c = −p̄,  S = Σ wᵢ (pᵢ − p̄)(pᵢ − p̄)ᵀ,  Σ wᵢ = 1, p = 0 at the node.
+struct LeastSquares {
+  const Sites& sites;
+  int terms;
+  MatrixXd p;
+  VectorXd w;
+  bool flat = false;      ///< the sites lie in a sheet or a row
+  bool complete = false;  ///< all terms are kept
+
+  void fit(const Vector3d& x, const std::vector<Entry>& near) {
+    const auto count = static_cast<Eigen::Index>(near.size());
+    p.resize(terms, count);
+    w.resize(count);
+    double square = 0.0, sum = 0.0;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      w[i] = *near[static_cast<std::size_t>(i)].value;
+      sum += w[i];
+      square += w[i] * (sites.position_m.col(near[static_cast<std::size_t>(i)].frame) - x).squaredNorm();
+    }
+    w /= sum;
+    const double length = square > 0.0 ? std::sqrt(square / sum) : 1.0;
+    for (Eigen::Index i = 0; i < count; ++i)
+      monomials((sites.position_m.col(near[static_cast<std::size_t>(i)].frame) - x) / length, terms, p.col(i).data());
+    const VectorXd mean = p * w;
+    p.colwise() -= mean;
+    flat = liesFlat(p, w);
+    const MatrixXd S = p * w.asDiagonal() * p.transpose();
+    const VectorXd c = coefficients(S, -mean, complete);
+    for (Eigen::Index i = 0; i < count; ++i) *near[static_cast<std::size_t>(i)].value = w[i] * (1.0 + c.dot(p.col(i)));
+  }
+};
+
 }  // namespace
 
 std::vector<FrameBasis::Column> FrameBasis::mls(const VoxelMesh& mesh, const Progress& progress) {
-  const int terms = options_.order == 1 ? 3 : 9;
   VectorXd radius = radii(mesh);
   reachEnoughSites(mesh, sites_, options_.order == 1 ? 6 : 15, radius);
   std::vector<Column> columns = connectedBalls(mesh, radius, progress);
 
-  struct Entry {
-    int frame;
-    double* value;
-  };
   std::vector<std::vector<Entry>> byNode(static_cast<std::size_t>(mesh.nodeCount()));
   for (int f = 0; f < frames(); ++f)
     for (auto& [node, phi] : columns[static_cast<std::size_t>(f)])
       byNode[static_cast<std::size_t>(node)].push_back({f, &phi});
 
-  // Centred at the weighted mean, the constant is exact whatever becomes of the rest:
-  // ψᵢ = wᵢ (1 + c·(pᵢ − p̄)),  S c = −p̄,  S = Σ wᵢ (pᵢ − p̄)(pᵢ − p̄)ᵀ,  Σ wᵢ = 1, p = 0 at the node.
   std::atomic<int> reduced{0}, flat{0};
   parallelChunks(byNode.size(), 64, [&](std::size_t begin, std::size_t end) {
     progress.check();
-    MatrixXd p;
-    VectorXd w;
+    LeastSquares least{sites_, options_.order == 1 ? 3 : 9, {}, {}};
     for (std::size_t n = begin; n < end; ++n) {
-      const std::vector<Entry>& near = byNode[n];
-      const auto count = static_cast<Eigen::Index>(near.size());
-      const Vector3d x = mesh.position_m(static_cast<int>(n));
-      p.resize(terms, count);
-      w.resize(count);
-      double square = 0.0, sum = 0.0;
-      for (Eigen::Index i = 0; i < count; ++i) {
-        w[i] = *near[static_cast<std::size_t>(i)].value;
-        sum += w[i];
-        square += w[i] * (sites_.position_m.col(near[static_cast<std::size_t>(i)].frame) - x).squaredNorm();
-      }
-      w /= sum;
-      const double length = square > 0.0 ? std::sqrt(square / sum) : 1.0;
-      for (Eigen::Index i = 0; i < count; ++i)
-        monomials((sites_.position_m.col(near[static_cast<std::size_t>(i)].frame) - x) / length, terms,
-                  p.col(i).data());
-      const VectorXd mean = p * w;
-      p.colwise() -= mean;
-      if (liesFlat(p, w)) ++flat;
-      const MatrixXd S = p * w.asDiagonal() * p.transpose();
-      bool complete = true;
-      const VectorXd c = coefficients(S, -mean, complete);
-      if (!complete) ++reduced;
-      for (Eigen::Index i = 0; i < count; ++i)
-        *near[static_cast<std::size_t>(i)].value = w[i] * (1.0 + c.dot(p.col(i)));
+      least.fit(mesh.position_m(static_cast<int>(n)), byNode[n]);
+      if (least.flat) ++flat;
+      if (!least.complete) ++reduced;
     }
   });
   flatShare_ = static_cast<double>(flat) / mesh.nodeCount();

@@ -41,6 +41,9 @@ class Stencil {
   double largestResolved_mm2() const { return largest_mm2_; }
 
  private:
+  /// Fills the series and what they resolve; radii: of the taps, in window radii.
+  void expandResponse(const std::vector<double>& radii);
+
   static constexpr std::size_t terms = 20;
   std::vector<Tap> taps_;
   int dimensions_;
