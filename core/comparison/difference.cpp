@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/order_statistics.h"
 #include "retraction/contact_path.h"
 
 namespace glisson::comparison {
@@ -16,12 +17,8 @@ double mean(const std::vector<double>& v) {
   return v.empty() ? 0.0 : sum / static_cast<double>(v.size());
 }
 
-/// The value that 95 % of the others do not exceed (nearest rank).
 double percentile95(std::vector<double> v) {
-  if (v.empty()) return 0.0;
-  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(v.size()))) - 1;
-  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(rank), v.end());
-  return v[rank];
+  return v.empty() ? 0.0 : percentile(v, 0.95);
 }
 
 double largest(const std::vector<double>& v) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/order_statistics.h"
 #include "base/quantity.h"
 #include "image/morphology.h"
 #include "inversion/detail/background.h"
@@ -270,13 +271,9 @@ void warn(Inversion& out, int directions, bool noiseSeen) {
   for (std::size_t v = 0; v < out.loss_kPa.values.size(); ++v)
     if (out.confidence.values[v] >= 0.9F && std::isfinite(out.loss_kPa.values[v]))
       loss.push_back(out.loss_kPa.values[v] / out.magnitude_kPa.values[v]);
-  if (loss.size() > 20) {
-    const auto middle = loss.begin() + static_cast<std::ptrdiff_t>(loss.size() / 2);
-    std::nth_element(loss.begin(), middle, loss.end());
-    if (*middle < clearlyNegative)
-      out.warnings.push_back(
-          "the loss modulus is negative at most confident voxels: are the phase offsets in order of time?");
-  }
+  if (loss.size() > 20 && middleValue(loss) < clearlyNegative)
+    out.warnings.push_back(
+        "the loss modulus is negative at most confident voxels: are the phase offsets in order of time?");
   if (out.used.dimensions == 2)
     out.warnings.push_back(
         "inverted slice by slice: a wave that crosses the slices at an angle looks longer than it is, and stiffer");

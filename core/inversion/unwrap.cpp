@@ -5,6 +5,7 @@
 #include <numbers>
 #include <queue>
 
+#include "base/order_statistics.h"
 #include "base/parallel.h"
 #include "inversion/waves.h"
 
@@ -89,9 +90,7 @@ class SliceUnwrapper {
     float* slice = &phase_.at(0, 0, k_);
     std::vector<float> values;
     for (const std::size_t v : part) values.push_back(slice[v]);
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    const double shift = turn * std::round(static_cast<double>(*middle) / turn);
+    const double shift = turn * std::round(static_cast<double>(middleValue(values)) / turn);
     if (shift != 0.0)
       for (const std::size_t v : part) slice[v] = static_cast<float>(static_cast<double>(slice[v]) - shift);
   }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/order_statistics.h"
 #include "retraction/body.h"
 
 namespace glisson::retraction {
@@ -369,9 +370,8 @@ DiscretisationError discretisationError(const retraction::Model& model, const re
     std::vector<double> error = places.ofCells(all);
     if (error.empty()) throw BadInput("no cell of one grid lies inside the other");
     e.mean_mm = meanOf(error);
-    std::sort(error.begin(), error.end());
-    e.max_mm = error.back();
-    e.p95_mm = error[static_cast<std::size_t>(0.95 * static_cast<double>(error.size() - 1))];
+    e.max_mm = *std::max_element(error.begin(), error.end());
+    e.p95_mm = percentile(error, 0.95);
     places.tell(all, own.travel_mm, e);
     e.known = true;
     std::ostringstream t;

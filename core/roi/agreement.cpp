@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/order_statistics.h"
 #include "image/distance.h"
 #include "image/morphology.h"
 
@@ -55,12 +56,6 @@ image::Mask sliceOf(const image::Mask& mask, int k) {
   return slice;
 }
 
-double quantile95(std::vector<double>& values) {
-  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size()))) - 1;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
-  return values[rank];
-}
-
 void fillDistances(Agreement& result, std::vector<double> ab, std::vector<double> ba) {
   double sum = 0.0;
   for (const auto* list : {&ab, &ba})
@@ -69,7 +64,7 @@ void fillDistances(Agreement& result, std::vector<double> ab, std::vector<double
       result.hausdorff_mm = std::max(result.hausdorff_mm, d);
     }
   result.meanSurfaceDistance_mm = sum / static_cast<double>(ab.size() + ba.size());
-  result.hausdorff95_mm = std::max(quantile95(ab), quantile95(ba));
+  result.hausdorff95_mm = std::max(percentile(ab, 0.95), percentile(ba, 0.95));
 }
 
 }  // namespace

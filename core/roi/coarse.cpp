@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/order_statistics.h"
 #include "base/parallel.h"
 #include "image/distance.h"
 #include "image/resample.h"
@@ -65,9 +66,7 @@ image::ScalarVolume medianSmoothed(const image::ScalarVolume& image, double radi
           for (const Eigen::Vector3i& offset : ball)
             if (const Eigen::Vector3i at = offset + Eigen::Vector3i(i, j, k); grid.contains(at))
               values.push_back(image.at(at));
-          const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-          std::nth_element(values.begin(), middle, values.end());
-          result.at(i, j, k) = *middle;
+          result.at(i, j, k) = middleValue(values);
         }
   });
   return result;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <set>
 
+#include "base/order_statistics.h"
 #include "roi/arrangement.h"
 #include "roi/detail/slabs.h"
 #include "roi/plane.h"
@@ -58,9 +59,7 @@ double usualStep(const std::vector<Seen>& all) {
     }
   }
   if (steps.empty()) return 1.0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return middleValue(steps);
 }
 
 /// Chooses among the polygons nearest to slice k.
