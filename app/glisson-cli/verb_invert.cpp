@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "diagnostics_json.h"
 #include "pipeline/invert.h"
@@ -82,7 +82,7 @@ int invert(const Arguments& a, const Context& context) {
   if (!context.output.empty()) {
     for (const auto& file : pipeline::writeInversion(context.output, r)) j["files"].push_back(file.string());
     j["files"].push_back((context.output / "invert.json").string());
-    std::ofstream(context.output / "invert.json") << j.dump(1) << "\n";
+    writeAtomically(context.output / "invert.json", j.dump(1) + "\n");
   }
   std::ostringstream text;
   for (const char* key : {"stiffness", "storage", "loss", "shear_stiffness"})

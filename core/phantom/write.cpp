@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "base/atomic_file.h"
 #include "base/quantity.h"
 #include "dicom/rtstruct.h"
 #include "dicom/write_mr.h"
@@ -17,13 +16,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int mriSeriesNumber = 4;
 constexpr int mreSeriesNumber = 7;
-
-void writeText(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.flush();
-  if (!out) throw BadInput("cannot write " + file.filename().string() + "; check space and permissions of the folder");
-}
 
 double rounded(double value, double unit) {
   return std::round(value / unit) * unit;
@@ -205,8 +197,8 @@ void writePhantom(const PhantomPatient& patient, const std::filesystem::path& fo
   writeElastogram(study, patient, folder / "mre");
   const dicom::Series source = outlinedSeries(mri, images, patient.mri.grid);
   dicom::writeRtStruct(folder / "rtstruct.dcm", outlines(patient, source), source, patient.truth.seed);
-  writeText(folder / "scene.json", sceneOf(patient).dump(2) + "\n");
-  writeText(folder / "truth.json", truthOf(patient).dump(1) + "\n");
+  writeAtomically(folder / "scene.json", sceneOf(patient).dump(2) + "\n");
+  writeAtomically(folder / "truth.json", truthOf(patient).dump(1) + "\n");
 }
 
 }  // namespace glisson::phantom

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <sstream>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "elastography/statistics.h"
 #include "image/resample.h"
@@ -249,7 +249,7 @@ std::vector<std::filesystem::path> writeReaders(const std::filesystem::path& fol
   std::filesystem::create_directories(folder, failed);
   if (failed) throw BadInput("the folder '" + folder.filename().string() + "' cannot be made: " + failed.message());
   std::vector<std::filesystem::path> files{folder / "readers.csv"};
-  std::ofstream csv(files.back());
+  std::ostringstream csv;
   csv.precision(10);
   csv << "case,reader,quantity,value,unit\n";
   for (const ReadersOfCase& c : study.cases)
@@ -259,7 +259,7 @@ std::vector<std::filesystem::path> writeReaders(const std::filesystem::path& fol
       if (!c.stiffness_kPa.empty()) csv << start << "mean stiffness," << c.stiffness_kPa[r] << ",kPa\n";
       if (r > 0) csv << start << "dice with reader 1," << c.agreement[r - 1].dice << ",1\n";
     }
-  if (!csv.flush()) throw BadInput("the table of readers could not be written");
+  writeAtomically(files.back(), csv.str());
   const auto draw = [&](const std::optional<elastography::BlandAltman>& limits, const std::string& name,
                         const std::string& quantity, const std::string& unit) {
     if (!limits) return;
@@ -267,7 +267,7 @@ std::vector<std::filesystem::path> writeReaders(const std::filesystem::path& fol
     files.push_back(folder / ("bland-altman-" + name + ".png"));
     render::writePng(files.back(), render::draw(c));
     files.push_back(folder / ("bland-altman-" + name + ".svg"));
-    std::ofstream(files.back()) << render::svg(c);
+    writeAtomically(files.back(), render::svg(c));
   };
   draw(study.volumeLimits, "volume", "volume", "mL");
   draw(study.stiffnessLimits, "stiffness", "mean stiffness", "kPa");

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/atomic_file.h"
 #include "base/version.h"
 #include "render/charts.h"
 #include "report/page.h"
@@ -108,7 +109,7 @@ std::vector<fs::path> writeBeamStudy(const fs::path& folder, const BeamStudy& s)
                  buildCommit() + ".");
   for (const auto& [name, text] : {std::pair{"report.html", report::html(page)}, {"report.pdf", report::pdf(page)}}) {
     files.push_back(folder / name);
-    writeText(files.back(), text);
+    writeAtomically(files.back(), text);
   }
   return files;
 }

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "base/atomic_file.h"
 #include "mechanics/contact/contact_solve.h"
 #include "mechanics/measures.h"
 #include "mechanics/static_solve.h"
@@ -223,7 +224,7 @@ std::vector<std::filesystem::path> writeContactStudy(const std::filesystem::path
                                             {calculix, "validate-contact-block", "Bar on a block against CalculiX"},
                                             {elastica, "validate-contact-elastica", "Bending against the elastica"}}};
   std::filesystem::create_directories(folder);
-  writeText(folder / "validate-contact.csv", csv(study.rows));
+  writeAtomically(folder / "validate-contact.csv", csv(study.rows));
   std::vector<std::filesystem::path> files = {folder / "validate-contact.csv"};
   for (const Shown& c : charts)
     for (auto& file : writeChart(folder, c.name, chart(study.rows, c.reference, c.title, {})))

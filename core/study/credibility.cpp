@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/version.h"
 #include "report/page.h"
@@ -117,7 +118,7 @@ std::vector<fs::path> writeCredibility(const fs::path& folder, const Credibility
   for (const auto& [name, text] :
        {std::pair{"credibility.html", report::html(page)}, {"credibility.pdf", report::pdf(page)}}) {
     files.push_back(folder / name);
-    writeText(files.back(), text);
+    writeAtomically(files.back(), text);
   }
   return files;
 }

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <sstream>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "render/picture.h"
 #include "report/text.h"
@@ -19,13 +19,6 @@ std::string cell(double value) {
 }
 
 }  // namespace
-
-void writeText(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw BadInput("cannot write " + file.string() + "; check that the folder exists and may be written");
-}
 
 void markPareto(std::vector<Row>& rows) {
   std::map<std::string, std::vector<std::size_t>> byReference;
@@ -122,7 +115,7 @@ std::vector<std::filesystem::path> writeChart(const std::filesystem::path& folde
   files.push_back(folder / (name + ".png"));
   render::writePng(files.back(), render::draw(chart));
   files.push_back(folder / (name + ".svg"));
-  writeText(files.back(), render::svg(chart));
+  writeAtomically(files.back(), render::svg(chart));
   return files;
 }
 
@@ -132,7 +125,7 @@ std::vector<std::filesystem::path> write(const std::filesystem::path& folder, co
   std::filesystem::create_directories(folder, failed);
   if (failed) throw BadInput("cannot make the folder " + folder.string() + ": " + failed.message());
   std::vector<std::filesystem::path> files = {folder / (name + ".csv")};
-  writeText(files.back(), csv(rows));
+  writeAtomically(files.back(), csv(rows));
   for (const auto& drawn : writeChart(folder, name, chart)) files.push_back(drawn);
   return files;
 }

@@ -43,9 +43,6 @@ std::string table(const std::vector<Row>& rows);
 render::XyChart chart(const std::vector<Row>& rows, const std::string& reference, const std::string& title,
                       const std::string& caption);
 
-/// Writes a text file. Throws BadInput where that fails.
-void writeText(const std::filesystem::path& file, const std::string& text);
-
 /// Writes <name>.png and <name>.svg of the chart where it has a series; returns what was written. Throws as write.
 std::vector<std::filesystem::path> writeChart(const std::filesystem::path& folder, const std::string& name,
                                               const render::XyChart& chart);
