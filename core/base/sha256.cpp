@@ -2,6 +2,7 @@
 #include "base/sha256.h"
 
 #include <openssl/evp.h>
+#include <openssl/hmac.h>
 
 #include <array>
 #include <fstream>
@@ -13,6 +14,18 @@
 namespace glisson {
 namespace {
 
+constexpr std::size_t largestKey_bytes = 1 << 20;
+
+std::string hexOf(const unsigned char* bytes, unsigned int count) {
+  static constexpr char digits[] = "0123456789abcdef";
+  std::string text;
+  for (unsigned int i = 0; i < count; ++i) {
+    text += digits[bytes[i] >> 4];
+    text += digits[bytes[i] & 15];
+  }
+  return text;
+}
+
 class Digest {
  public:
   Digest() : ctx_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
@@ -23,13 +36,7 @@ class Digest {
     std::array<unsigned char, EVP_MAX_MD_SIZE> out{};
     unsigned int length = 0;
     EVP_DigestFinal_ex(ctx_.get(), out.data(), &length);
-    static constexpr char digits[] = "0123456789abcdef";
-    std::string text;
-    for (unsigned int i = 0; i < length; ++i) {
-      text += digits[out[i] >> 4];
-      text += digits[out[i] & 15];
-    }
-    return text;
+    return hexOf(out.data(), length);
   }
 
  private:
@@ -42,6 +49,16 @@ std::string sha256(const void* bytes, std::size_t count) {
   Digest d;
   d.add(bytes, count);
   return d.hex();
+}
+
+std::string hmacSha256(const std::string& key, const std::string& text) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> out{};
+  unsigned int length = 0;
+  if (key.size() > largestKey_bytes) throw BadArgument("hmacSha256: a key of more than a megabyte");
+  if (HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()), reinterpret_cast<const unsigned char*>(text.data()),
+           text.size(), out.data(), &length) == nullptr)
+    throw Error("HMAC over SHA-256 is not available");
+  return hexOf(out.data(), length);
 }
 
 std::string sha256OfFile(const std::filesystem::path& file) {

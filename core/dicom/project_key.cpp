@@ -65,15 +65,7 @@ ProjectKey openProjectKey(const std::filesystem::path& file, const std::vector<s
 }
 
 std::string keyedDigest(const ProjectKey& key, const std::string& text) {
-  // HMAC [RFC 2104] over SHA-256: the key of 32 bytes filled up to a block of 64.
-  std::string block = unhex(key.secret);
-  block.resize(64, '\0');
-  std::string inner = block, outer = block;
-  for (char& c : inner) c = static_cast<char>(c ^ 0x36);
-  for (char& c : outer) c = static_cast<char>(c ^ 0x5c);
-  inner += text;
-  outer += unhex(sha256(inner.data(), inner.size()));
-  return sha256(outer.data(), outer.size());
+  return hmacSha256(unhex(key.secret), text);
 }
 
 }  // namespace glisson::dicom
