@@ -2,6 +2,7 @@
 #include "dicom/detail/frame_groups.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <sstream>
@@ -104,7 +105,10 @@ void addDimensions(DcmItem& data, DcmItem& content, Frame& frame) {
     values = numbers(content, DCM_DimensionIndexValues);
   } catch (const BadInput&) {  // no numbers: as good as none
   }
-  int other = 0;
+  static constexpr std::array indices = {FrameKind::DimensionIndex1, FrameKind::DimensionIndex2,
+                                         FrameKind::DimensionIndex3, FrameKind::DimensionIndex4,
+                                         FrameKind::DimensionIndex5};
+  std::size_t other = 0;
   for (unsigned long d = 0; d < values.size() && d < 8; ++d) {
     DcmItem* dimension = itemOf(data, DCM_DimensionIndexSequence, d);
     DcmElement* element = nullptr;
@@ -116,8 +120,11 @@ void addDimensions(DcmItem& data, DcmItem& content, Frame& frame) {
       return std::find(std::begin(list), std::end(list), pointer) != std::end(list);
     };
     if (in(slices)) continue;
-    frame.kinds.emplace_back(in(times) ? "time index" : "dimension index " + std::to_string(++other),
-                             std::to_string(std::lround(values[d])));
+    const std::string value = std::to_string(std::lround(values[d]));
+    if (in(times))
+      frame.kinds.emplace_back(FrameKind::TimeIndex, value);
+    else if (other < indices.size())
+      frame.kinds.emplace_back(indices[other++], value);
   }
 }
 
@@ -133,29 +140,30 @@ std::string wordsAboutValues(const FrameView& view, DcmItem& data) {
 }
 
 void readKinds(const FrameView& view, DcmItem& data, const std::string& privateType, Frame& frame) {
-  const auto add = [&frame](const char* what, const std::string& value) {
+  const auto add = [&frame](FrameKind what, const std::string& value) {
     if (!value.empty()) frame.kinds.emplace_back(what, value);
   };
   DcmItem& type = view.group(DCM_MRImageFrameTypeSequence);
-  add("image type", text(type, &type == &data ? DCM_ImageType : DCM_FrameType));
-  add("complex component", text(type, DCM_ComplexImageComponent));
-  add("private image type", privateType);
-  if (frame.quantity) add("quantity", inWords(*frame.quantity));
-  add("echo number", text(data, DCM_EchoNumbers));
+  add(FrameKind::ImageType, text(type, &type == &data ? DCM_ImageType : DCM_FrameType));
+  add(FrameKind::ComplexComponent, text(type, DCM_ComplexImageComponent));
+  add(FrameKind::PrivateImageType, privateType);
+  if (frame.quantity) add(FrameKind::Quantity, inWords(*frame.quantity));
+  add(FrameKind::EchoNumber, text(data, DCM_EchoNumbers));
   DcmItem& echo = view.group(DCM_MREchoSequence);
-  add("echo time", text(echo, &echo == &data ? DCM_EchoTime : DCM_EffectiveEchoTime));
-  add("inversion time", text(data, DCM_InversionTime));
+  add(FrameKind::EchoTime, text(echo, &echo == &data ? DCM_EchoTime : DCM_EffectiveEchoTime));
+  add(FrameKind::InversionTime, text(data, DCM_InversionTime));
   DcmItem& diffusion = view.group(DCM_MRDiffusionSequence);
-  add("diffusion b-value", text(diffusion, DCM_DiffusionBValue));
+  add(FrameKind::DiffusionBValue, text(diffusion, DCM_DiffusionBValue));
   DcmItem& content = view.group(DCM_FrameContentSequence);
-  add("temporal position",
+  add(FrameKind::TemporalPosition,
       text(content, &content == &data ? DCM_TemporalPositionIdentifier : DCM_TemporalPositionIndex));
-  add("trigger time", text(data, DCM_TriggerTime));
-  add("acquisition number", text(data, DCM_AcquisitionNumber));
-  add("words about values", wordsAboutValues(view, data));
+  add(FrameKind::TriggerTime, text(data, DCM_TriggerTime));
+  add(FrameKind::AcquisitionNumber, text(data, DCM_AcquisitionNumber));
+  add(FrameKind::WordsAboutValues, wordsAboutValues(view, data));
   if (&content == &data) return;
-  add("trigger delay", text(view.group(DCM_CardiacSynchronizationSequence), DCM_NominalCardiacTriggerDelayTime));
-  add("frame acquisition number", text(content, DCM_FrameAcquisitionNumber));
+  add(FrameKind::TriggerDelay,
+      text(view.group(DCM_CardiacSynchronizationSequence), DCM_NominalCardiacTriggerDelayTime));
+  add(FrameKind::FrameAcquisitionNumber, text(content, DCM_FrameAcquisitionNumber));
   addDimensions(data, content, frame);
 }
 

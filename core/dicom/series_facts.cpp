@@ -59,7 +59,7 @@ void takeQuantityByWords(const SliceFacts& first, Series& series) {
   const ImageHeader& h = *first.header;
   std::string about = h.imageType;
   for (const auto& [what, words] : first.frame->kinds)
-    if (what == "words about values") about += ' ' + words;
+    if (what == FrameKind::WordsAboutValues) about += ' ' + words;
   const auto unit = mapUnit(series.unit.value_or(unitInWords(h.description).value_or("")));
   if (!unit || unit->of != MapUnit::Of::Modulus || quantityInWords(h.description) ||
       quantityInWords(about) != MapQuantity::YoungsModulus)
@@ -122,12 +122,12 @@ void takeAcquisition(const std::vector<SliceFacts>& slices, Series& series) {
   a.imageType = h.imageType;
   a.elastographyStep = h.step.time >= 0;
   for (const auto& [what, value] : slices.front().frame->kinds)
-    if (what == "image type") a.imageType = value;
+    if (what == FrameKind::ImageType) a.imageType = value;
   std::set<std::string> references;
   const ImageHeader* before = nullptr;
   for (const SliceFacts& s : slices) {
     a.phaseCoded = a.phaseCoded || std::any_of(s.frame->kinds.begin(), s.frame->kinds.end(), [](const auto& k) {
-                     return k.first == "private image type" && k.second != "0";
+                     return k.first == FrameKind::PrivateImageType && k.second != "0";
                    });
     if (s.header == before) continue;
     before = s.header;

@@ -135,24 +135,40 @@ std::vector<Part> partsPerFile(const Planes& planes) {
   return parts;
 }
 
+/// What splits a series, strongest first, in words.
+constexpr std::pair<FrameKind, const char*> kindNames[] = {
+    {FrameKind::ImageType, "image type"},
+    {FrameKind::ComplexComponent, "complex component"},
+    {FrameKind::PrivateImageType, "private image type"},
+    {FrameKind::Quantity, "quantity"},
+    {FrameKind::EchoNumber, "echo number"},
+    {FrameKind::EchoTime, "echo time"},
+    {FrameKind::InversionTime, "inversion time"},
+    {FrameKind::DiffusionBValue, "diffusion b-value"},
+    {FrameKind::TemporalPosition, "temporal position"},
+    {FrameKind::TriggerTime, "trigger time"},
+    {FrameKind::AcquisitionNumber, "acquisition number"},
+    {FrameKind::TriggerDelay, "trigger delay"},
+    {FrameKind::FrameAcquisitionNumber, "frame acquisition number"},
+    {FrameKind::TimeIndex, "time index"},
+    {FrameKind::DimensionIndex1, "dimension index 1"},
+    {FrameKind::DimensionIndex2, "dimension index 2"},
+    {FrameKind::DimensionIndex3, "dimension index 3"},
+    {FrameKind::DimensionIndex4, "dimension index 4"},
+    {FrameKind::DimensionIndex5, "dimension index 5"}};
+
 /// Parts planes that share positions by the first attribute that explains it; again within each part.
 void split(Part part, std::vector<Part>& out) {
   if (!hasDuplicates(part.planes)) {
     out.push_back(std::move(part));
     return;
   }
-  static constexpr const char* attributes[] = {
-      "image type",         "complex component", "private image type",       "quantity",          "echo number",
-      "echo time",          "inversion time",    "diffusion b-value",        "temporal position", "trigger time",
-      "acquisition number", "trigger delay",     "frame acquisition number", "time index",        "dimension index 1",
-      "dimension index 2",  "dimension index 3", "dimension index 4",        "dimension index 5"};
-  for (const char* attribute : attributes) {
-    const std::string name = attribute;
+  for (const auto& [kind, name] : kindNames) {
     std::map<std::string, Planes, NaturalOrder> byValue;
     for (const Plane& p : part.planes) {
       std::string value;
       for (const auto& [what, text] : p.frame->kinds)
-        if (what == name) value = text;
+        if (what == kind) value = text;
       byValue[value].push_back(p);
     }
     if (byValue.size() < 2) continue;
@@ -161,12 +177,13 @@ void split(Part part, std::vector<Part>& out) {
     bool sound = true;
     for (const auto& [value, planes] : byValue) {
       const std::size_t here = distinctPositions(planes);
-      if (name != "image type" && name != "private image type" && here != places) sound = false;
-      if ((name == "trigger time" || name == "acquisition number") && here < 2) sound = false;
+      if (kind != FrameKind::ImageType && kind != FrameKind::PrivateImageType && here != places) sound = false;
+      if ((kind == FrameKind::TriggerTime || kind == FrameKind::AcquisitionNumber) && here < 2) sound = false;
     }
     if (!sound) continue;
-    const bool inTime = name == "temporal position" || name == "trigger time" || name == "acquisition number" ||
-                        name == "trigger delay" || name == "time index";
+    const bool inTime = kind == FrameKind::TemporalPosition || kind == FrameKind::TriggerTime ||
+                        kind == FrameKind::AcquisitionNumber || kind == FrameKind::TriggerDelay ||
+                        kind == FrameKind::TimeIndex;
     int rank = 0;
     for (auto& [value, planes] : byValue) {
       split({std::move(planes), part.told + (part.told.empty() ? "" : ", ") + name + " " + value.substr(0, 40),

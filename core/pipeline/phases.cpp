@@ -35,8 +35,11 @@ void readDicom(const std::filesystem::path& path, Ordered& found, LoadedPhases& 
                      "'; give the folder of one acquisition");
     if (s.vibration_Hz) out.frequency_Hz = s.vibration_Hz;
     for (const std::string& shown : s.warnings) {
-      // What makes a raw acquisition: told once, with the count, below.
-      if (shown.find("told apart by encoding direction") != std::string::npos) continue;
+      // That it is one of many volumes is what makes a raw acquisition: said once, with the count, below.
+      if (s.encodingDirection >= 0 && std::any_of(s.diagnostics.begin(), s.diagnostics.end(), [&](const Diagnostic& d) {
+            return d.code == DiagnosticCode::VolumeOfSeries && d.text() == shown;
+          }))
+        continue;
       const std::string warning = names.hiddenIn(shown);
       if (std::find(out.warnings.begin(), out.warnings.end(), warning) == out.warnings.end())
         out.warnings.push_back(warning);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dicom/detail/header_wire.h"
 
+#include <algorithm>
+
 #include "dicom/detail/wire.h"
 
 namespace glisson::dicom::detail {
@@ -135,7 +137,10 @@ void check(const ImageHeader& h, std::uint64_t fileBytes) {
     const Frame& f = h.frames[n];
     if (f.number != static_cast<int>(n) || !isUnit(f.row) || !isUnit(f.column) || f.rowSpacing_mm <= 0.0 ||
         f.columnSpacing_mm <= 0.0 || f.map < -1 || f.map >= static_cast<int>(h.maps.size()) ||
-        f.scaleDoubt > ScaleDoubt::TableUnread || f.quantity.value_or(MapQuantity::Other) > MapQuantity::Other)
+        f.scaleDoubt > ScaleDoubt::TableUnread ||
+        std::any_of(f.kinds.begin(), f.kinds.end(),
+                    [](const auto& kind) { return kind.first > FrameKind::WordsAboutValues; }) ||
+        f.quantity.value_or(MapQuantity::Other) > MapQuantity::Other)
       WireReader::fail();
   }
 }

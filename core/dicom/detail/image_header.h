@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "dicom/detail/announced.h"
 #include "dicom/file_layout.h"
 #include "dicom/map_quantity.h"
@@ -47,6 +48,30 @@ enum class ScaleDoubt {
   TableUnread,   ///< stored values mean something by a modality look-up table only
 };
 
+/// What may tell two images of one position from each other, strongest first; WordsAboutValues never does.
+enum class FrameKind {
+  ImageType,
+  ComplexComponent,
+  PrivateImageType,
+  Quantity,
+  EchoNumber,
+  EchoTime,
+  InversionTime,
+  DiffusionBValue,
+  TemporalPosition,
+  TriggerTime,
+  AcquisitionNumber,
+  TriggerDelay,
+  FrameAcquisitionNumber,
+  TimeIndex,
+  DimensionIndex1,
+  DimensionIndex2,
+  DimensionIndex3,
+  DimensionIndex4,
+  DimensionIndex5,
+  WordsAboutValues
+};
+
 /// One image plane: a file, or a frame of a multi-frame file.
 struct Frame {
   int number = 0;  ///< in its file, from 0
@@ -61,9 +86,8 @@ struct Frame {
   int map = -1;  ///< of the header's maps: the one that holds instead of rescale; -1 where the rescale does
   ScaleDoubt scaleDoubt = ScaleDoubt::None;
   std::string unit;  ///< of the values, in the words of base/map_unit.h where it is one of those; empty where unknown
-  std::optional<MapQuantity> quantity;  ///< where a code says so
-  /// What may tell two images of one position apart, strongest first: {attribute, value}; and "words about values".
-  std::vector<std::pair<std::string, std::string>> kinds;
+  std::optional<MapQuantity> quantity;                   ///< where a code says so
+  std::vector<std::pair<FrameKind, std::string>> kinds;  ///< with the value of each that the file has
 };
 
 /// How the slices of a Siemens mosaic lie in its one picture: row by row, perRow beside each other.
@@ -128,7 +152,8 @@ struct ImageHeader {
 };
 
 /// Identity of a file that was refused after its series was known: a series with such a file is incomplete.
-struct RefusedFile : std::exception {
+struct RefusedFile : Error {
+  RefusedFile() : Error("a file was refused") {}
   std::string reason;
   std::string seriesUid;     ///< empty where unknown, or where the file holds no image
   bool outOfMemory = false;  ///< there may be more of it another time
