@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/quantity_names.h"
 #include "diagnostics_json.h"
 #include "pipeline/readers.h"
 #include "verbs.h"
@@ -68,8 +69,7 @@ Json overCases(const std::optional<elastography::ReaderReliability>& reliability
 }
 
 int agree(Arguments a, const Context& context) {
-  if (!a.quantity.empty())
-    a.request.meaning.quantity = a.quantity == "shear" ? StiffnessQuantity::Shear : StiffnessQuantity::Youngs;
+  if (!a.quantity.empty()) a.request.meaning.quantity = stiffnessQuantityNames.named(a.quantity);
   if (!a.unit.empty()) a.request.meaning.unit = a.unit;
   const pipeline::ReaderStudy study = pipeline::compareReaders(a.request, context.progress());
   Json j;
@@ -122,7 +122,8 @@ void addAgree(CLI::App& app, Context& context) {
       ->type_name(value::folderOrVolume);
   verb->add_option("--mre", a->request.mre, "elastogram (or folder of them): mean stiffness of each reader too")
       ->type_name(value::folderOrVolume);
-  verb->add_option("--quantity", a->quantity, "what a bare map holds")->check(CLI::IsMember({"shear", "youngs"}));
+  verb->add_option("--quantity", a->quantity, "what a bare map holds")
+      ->check(CLI::IsMember(stiffnessQuantityNames.words()));
   verb->add_option("--unit", a->unit, "unit of a bare map: Pa, kPa or <factor>kPa");
   verb->add_option("--label", a->request.label, "label of masks, 0 = any");
   verb->add_option("--name", a->request.name, "structure of RT Structure Sets");

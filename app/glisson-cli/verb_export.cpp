@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/private_folder.h"
+#include "base/quantity_names.h"
 #include "diagnostics_json.h"
 #include "pipeline/export.h"
 #include "slicer_xml.h"
@@ -44,7 +45,7 @@ void addExport(CLI::App& app, Context& context) {
       ->required();
   verb->add_option("--to", request->formats, "formats, separated by commas")->required()->delimiter(',');
   verb->add_option("--quantity", *quantity, "modulus of exported stiffness, where it is not the measured one")
-      ->check(CLI::IsMember({"shear", "youngs"}));
+      ->check(CLI::IsMember(stiffnessQuantityNames.words()));
   verb->add_option("--case", request->caseName, "case of tidy tables (never taken from the patient)");
   verb->add_option("--reader", request->reader, "reader of tidy tables");
   addSlicerXml(*verb, {"Export a result", {PathKind::Folder}});
@@ -53,8 +54,7 @@ void addExport(CLI::App& app, Context& context) {
       if (context.output.empty()) throw BadInput("export needs a folder to write to: give --output");
       request->output = context.output;
       request->seed = context.seed;
-      if (!quantity->empty())
-        request->quantity = *quantity == "shear" ? StiffnessQuantity::Shear : StiffnessQuantity::Youngs;
+      if (!quantity->empty()) request->quantity = stiffnessQuantityNames.named(*quantity);
       pipeline::Exported done;
       if (context.strict)
         done = exportIfSound(*request, context);

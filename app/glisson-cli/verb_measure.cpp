@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/quantity_names.h"
 #include "diagnostics_json.h"
 #include "pipeline/measure.h"
 #include "roles_option.h"
@@ -73,8 +74,7 @@ Json sourcesOf(const pipeline::LoadedStiffness& mre) {
 
 int measure(const Arguments& a, const Context& context) {
   pipeline::MeasureRequest request = a.request;
-  if (!a.quantity.empty())
-    request.quantity = a.quantity == "shear" ? StiffnessQuantity::Shear : StiffnessQuantity::Youngs;
+  if (!a.quantity.empty()) request.quantity = stiffnessQuantityNames.named(a.quantity);
   if (!a.unit.empty()) request.unit = a.unit;
   request.roles = rolesFrom(a.roles);
   const pipeline::MeasuredRegion measured = pipeline::measureRegion(request, context.progress());
@@ -82,7 +82,7 @@ int measure(const Arguments& a, const Context& context) {
   const std::vector<std::string>& warnings = measured.warnings;
 
   Json j;
-  j["quantity"] = m.quantity == StiffnessQuantity::Shear ? "shear" : "youngs";
+  j["quantity"] = stiffnessQuantityNames.nameOf(m.quantity);
   j["pooled"] = toJson(m.pooled);
   j["slices"] = Json::array();
   for (const elastography::SliceStatistics& s : m.slices) {
@@ -140,7 +140,8 @@ void addMeasure(CLI::App& app, Context& context) {
   verb->add_option("--mri", a->request.mri,
                    "image that the contours were drawn on, where its slices differ from the elastogram's")
       ->type_name(value::folderOrVolume);
-  verb->add_option("--quantity", a->quantity, "what a bare map holds")->check(CLI::IsMember({"shear", "youngs"}));
+  verb->add_option("--quantity", a->quantity, "what a bare map holds")
+      ->check(CLI::IsMember(stiffnessQuantityNames.words()));
   verb->add_option("--unit", a->unit, "unit of a bare map: Pa, kPa or <factor>kPa");
   verb->add_option("--role", a->roles, "series=role, set by hand: UID or number, and stiffness, confidence ...");
   verb->add_flag("--override", a->request.overrideChecks,

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/quantity_names.h"
 #include "base/sha256.h"
 #include "base/text.h"
 #include "dicom/series.h"
@@ -91,7 +92,7 @@ PatientFiles filesOf(const pipeline::Scene& scene) {
   };
   if (scene.material.kind == pipeline::MaterialSpec::Kind::Map) {
     files.mre = scene.material.map;
-    say({"--quantity", scene.material.quantity == StiffnessQuantity::Shear ? "shear" : "youngs"});
+    say({"--quantity", stiffnessQuantityNames.nameOf(scene.material.quantity)});
     say({"--unit", scene.material.unit});
   }
   if (g.label != 0) say({"--label", std::to_string(g.label)});

@@ -8,6 +8,7 @@
 #include "anatomy/surface.h"
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/quantity_names.h"
 #include "image/extend.h"
 #include "image/io.h"
 #include "pipeline/detail/uncertainty_record.h"
@@ -152,7 +153,7 @@ void Writer::vessels(const Scene&, const RunResult& r, const anatomy::VesselMode
 void Writer::stiffness(const elastography::Measurement& m) {
   report::Csv csv({"slice", "quantity", "n", "n_before_mask", "area_mm2", "mean_kPa", "median_kPa", "sd_kPa", "min_kPa",
                    "max_kPa"});
-  const std::string quantity = m.quantity == StiffnessQuantity::Shear ? "shear" : "youngs";
+  const std::string quantity = stiffnessQuantityNames.nameOf(m.quantity);
   auto row = [&](const std::string& name, const elastography::Statistics& v) {
     csv.row({name, quantity, std::to_string(v.n), std::to_string(v.n_before_mask), number(v.area_mm2, 7),
              number(v.mean_kPa, 7), number(v.median_kPa, 7), number(v.sd_kPa, 7), number(v.min_kPa, 7),

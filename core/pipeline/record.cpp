@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/parallel.h"
+#include "base/quantity_names.h"
 #include "base/sha256.h"
 #include "base/version.h"
 #include "pipeline/detail/result_json.h"
@@ -203,7 +204,7 @@ void addComparison(const Scene& scene, const RunResult& r, Json& j) {
 
 Json stiffnessToJson(const elastography::Measurement& m) {
   const elastography::Statistics& s = m.pooled;
-  return {{"quantity", m.quantity == StiffnessQuantity::Shear ? "shear" : "youngs"},
+  return {{"quantity", stiffnessQuantityNames.nameOf(m.quantity)},
           {"n", s.n},
           {"n_before_mask", s.n_before_mask},
           {"mean_kPa", s.mean_kPa},

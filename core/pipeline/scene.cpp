@@ -7,8 +7,10 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/quantity_names.h"
 #include "pipeline/case_folder.h"
 #include "pipeline/detail/json_reader.h"
+#include "pipeline/detail/scene_words.h"
 #include "pipeline/detail/setup_reader.h"
 #include "retraction/rigid_contact.h"
 
@@ -69,9 +71,7 @@ GeometrySpec readGeometry(JsonObject o, const std::filesystem::path& folder) {
     g.rigidRegistration = o.word("registration", {"none", "rigid"}, "none") == "rigid";
     if (o.has("roles")) g.roles = readRoles(o);
     g.overrideChecks = o.boolean("override", false);
-    if (o.has("mre_quantity"))
-      g.mreQuantity = o.word("mre_quantity", {"shear", "youngs"}) == "youngs" ? StiffnessQuantity::Youngs
-                                                                              : StiffnessQuantity::Shear;
+    if (o.has("mre_quantity")) g.mreQuantity = o.named("mre_quantity", stiffnessQuantityNames);
     if (o.has("mre_unit")) g.mreUnit = o.text("mre_unit");
     if (o.has("mre_confidence_scale")) {
       g.mreConfidenceScale = o.number("mre_confidence_scale");
@@ -113,8 +113,7 @@ MaterialSpec readMaterial(JsonObject& scene, Setup& setup, const std::filesystem
   } else if (o.has("map")) {
     m.kind = MaterialSpec::Kind::Map;
     m.map = existing(o, "map", folder);
-    m.quantity =
-        o.word("quantity", {"youngs", "shear"}) == "youngs" ? StiffnessQuantity::Youngs : StiffnessQuantity::Shear;
+    m.quantity = o.named("quantity", stiffnessQuantityNames);
     m.unit = o.text("unit");
   } else {
     m.kind = o.word("source", {"mre", "atlas"}) == "mre" ? MaterialSpec::Kind::Mre : MaterialSpec::Kind::Atlas;
@@ -292,7 +291,7 @@ Scene parseScene(const std::string& text, const std::filesystem::path& folder, c
   if (o.has("analysis")) s.setup.analysis = detail::readAnalysis(o.object("analysis"));
   if (o.has("solver")) {
     s.setup.solver = detail::readSolver(o.object("solver"));
-    s.setup.condensed = document.root["solver"]["kind"] == "condensed";
+    s.setup.condensed = document.root["solver"]["kind"] == detail::condensedSolver;
   }
   s.named = namedIn(document.root);
   s.capsuleAsked = o.has("capsule");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
+#include "base/quantity_names.h"
+#include "pipeline/detail/scene_words.h"
 #include "pipeline/scene.h"
 #include "retraction/ligaments.h"
 #include "retraction/rigid_contact.h"
@@ -8,6 +10,11 @@
 namespace glisson::pipeline {
 namespace {
 
+using detail::condensedSolver;
+using detail::hexElementNames;
+using detail::kernelNames;
+using detail::preconditionerNames;
+using detail::solverNames;
 using Json = nlohmann::ordered_json;
 
 Json toJson(const Eigen::Vector3d& v) {
@@ -44,7 +51,7 @@ Json toJson(const GeometrySpec& g, const std::filesystem::path& folder) {
       if (g.rigidRegistration) j["registration"] = "rigid";
       for (const auto& [which, role] : g.roles) j["roles"][which] = dicom::name(role);
       if (g.overrideChecks) j["override"] = true;
-      if (g.mreQuantity) j["mre_quantity"] = *g.mreQuantity == StiffnessQuantity::Youngs ? "youngs" : "shear";
+      if (g.mreQuantity) j["mre_quantity"] = stiffnessQuantityNames.nameOf(*g.mreQuantity);
       if (g.mreUnit) j["mre_unit"] = *g.mreUnit;
       if (g.mreConfidenceScale) j["mre_confidence_scale"] = *g.mreConfidenceScale;
       if (g.label != 0) j["label"] = g.label;
@@ -61,7 +68,7 @@ Json toJson(const MaterialSpec& m, const retraction::Setup& setup, const std::fi
     case MaterialSpec::Kind::Uniform: j[youngs ? "youngs_kPa" : "shear_kPa"] = m.value_kPa; break;
     case MaterialSpec::Kind::Map:
       j["map"] = pathText(m.map, folder);
-      j["quantity"] = youngs ? "youngs" : "shear";
+      j["quantity"] = stiffnessQuantityNames.nameOf(m.quantity);
       j["unit"] = m.unit;
       break;
     case MaterialSpec::Kind::Mre: j["source"] = "mre"; break;
@@ -161,9 +168,7 @@ Json toJson(const retraction::ModelSpec& m, bool element) {
   if (m.kind == retraction::ModelKind::Meshfree)
     return {{"kind", "meshfree"},
             {"frames", m.meshfree.frames},
-            {"kernel", m.meshfree.kernel == mechanics::Kernel::Voronoi ? "voronoi"
-                       : m.meshfree.kernel == mechanics::Kernel::Mls   ? "mls"
-                                                                       : "wendland"},
+            {"kernel", kernelNames.nameOf(m.meshfree.kernel)},
             {"order", m.meshfree.order}};
   if (m.kind == retraction::ModelKind::FemTet) {
     Json j = {{"kind", "fem-tet"}, {"element", m.quadraticTets ? "T10" : "T4"}};
@@ -175,10 +180,7 @@ Json toJson(const retraction::ModelSpec& m, bool element) {
     return j;
   }
   if (!element && m.element == mechanics::HexElement::Incompatible) return {{"kind", "fem-hex"}};
-  return {{"kind", "fem-hex"},
-          {"element", m.element == mechanics::HexElement::H8     ? "H8"
-                      : m.element == mechanics::HexElement::BBar ? "H8-Bbar"
-                                                                 : "H8-incompatible"}};
+  return {{"kind", "fem-hex"}, {"element", hexElementNames.nameOf(m.element)}};
 }
 
 Json toJson(const retraction::AnalysisSpec& a) {
@@ -215,14 +217,9 @@ Json toJson(const uncertainty::Options& u) {
 /// steps that nobody named is the program's to choose, and is still when the text is read again.
 Json solverToJson(const Scene& scene, bool used) {
   const retraction::Setup& s = scene.setup;
-  using mechanics::Preconditioner;
   using mechanics::SolverKind;
   Json j;
-  j["kind"] = s.condensed                               ? "condensed"
-              : s.solver.kind == SolverKind::Cg         ? "cg"
-              : s.solver.kind == SolverKind::Factorised ? "factorised"
-              : s.solver.kind == SolverKind::Multigrid  ? "multigrid"
-                                                        : "auto";
+  j["kind"] = s.condensed ? condensedSolver : solverNames.nameOf(s.solver.kind);
   const mechanics::SolverOptions usual;
   const bool chosen =
       s.analysis.dynamic && !s.condensed && s.solver.kind == SolverKind::Auto && !s.solver.keepsTolerance();
@@ -230,9 +227,7 @@ Json solverToJson(const Scene& scene, bool used) {
     j["iterations"] = s.solver.iterations;
   if ((used && !chosen) || s.solver.keepsTolerance()) j["tolerance"] = s.solver.tolerance;
   if (s.solver.kind == SolverKind::Cg && (used || scene.names("solver.preconditioner")))
-    j["preconditioner"] = s.solver.preconditioner == Preconditioner::None     ? "none"
-                          : s.solver.preconditioner == Preconditioner::Jacobi ? "jacobi"
-                                                                              : "block-jacobi";
+    j["preconditioner"] = preconditionerNames.nameOf(s.solver.preconditioner);
   return j;
 }
 

@@ -40,6 +40,15 @@ class JsonObject {
   /// One of the allowed words.
   std::string word(const std::string& key, const std::vector<std::string>& allowed);
   std::string word(const std::string& key, const std::vector<std::string>& allowed, const std::string& fallback);
+  /// The value of an enumeration by its word, of a table as EnumNames.
+  template <class Names>
+  auto named(const std::string& key, const Names& names) {
+    return names.named(word(key, names.words()));
+  }
+  template <class Names, class E>
+  E named(const std::string& key, const Names& names, E fallback) {
+    return names.named(word(key, names.words(), names.nameOf(fallback)));
+  }
   Eigen::Vector3d vector3(const std::string& key);
   std::vector<Eigen::Vector3d> vectors3(const std::string& key);
   std::vector<double> numbers(const std::string& key, std::size_t count);

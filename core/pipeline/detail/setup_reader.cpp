@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "pipeline/detail/scene_words.h"
 #include "retraction/ligaments.h"
 
 namespace glisson::pipeline::detail {
@@ -221,17 +222,11 @@ retraction::ModelSpec readModel(JsonObject o) {
     m.kind = retraction::ModelKind::Meshfree;
     m.meshfree.frames = o.integer("frames", 200);
     if (m.meshfree.frames < 1) o.fail("frames", "must be at least 1");
-    const std::string kernel = o.word("kernel", {"voronoi", "wendland", "mls"}, "wendland");
-    m.meshfree.kernel = kernel == "voronoi" ? mechanics::Kernel::Voronoi
-                        : kernel == "mls"   ? mechanics::Kernel::Mls
-                                            : mechanics::Kernel::Wendland;
+    m.meshfree.kernel = o.named("kernel", kernelNames, mechanics::Kernel::Wendland);
     m.meshfree.order = o.integer("order", 1);
     if (m.meshfree.order != 1 && m.meshfree.order != 2) o.fail("order", "must be 1 (affine) or 2 (quadratic)");
   } else if (kind == "fem-hex") {
-    const std::string e = o.word("element", {"H8", "H8-Bbar", "H8-incompatible"}, "H8-incompatible");
-    m.element = e == "H8"        ? mechanics::HexElement::H8
-                : e == "H8-Bbar" ? mechanics::HexElement::BBar
-                                 : mechanics::HexElement::Incompatible;
+    m.element = o.named("element", hexElementNames, mechanics::HexElement::Incompatible);
   } else {
     m.kind = retraction::ModelKind::FemTet;
     if (o.has("order")) {
@@ -281,22 +276,17 @@ retraction::AnalysisSpec readAnalysis(JsonObject o) {
 
 mechanics::SolverOptions readSolver(JsonObject o) {
   mechanics::SolverOptions s;
-  const std::string kind = o.word("kind", {"auto", "cg", "factorised", "multigrid", "condensed"});
-  s.kind = kind == "cg"           ? mechanics::SolverKind::Cg
-           : kind == "factorised" ? mechanics::SolverKind::Factorised
-           : kind == "multigrid"  ? mechanics::SolverKind::Multigrid
-                                  : mechanics::SolverKind::Auto;
+  std::vector<std::string> kinds = solverNames.words();
+  kinds.emplace_back(condensedSolver);
+  const std::string kind = o.word("kind", kinds);
+  if (kind != condensedSolver) s.kind = solverNames.named(kind);
   s.iterations = o.integer("iterations", 0);
   if (s.iterations < 0) o.fail("iterations", "must not be negative");
   s.toleranceAsked = o.has("tolerance");
   s.tolerance = positive(o, "tolerance", o.number("tolerance", s.tolerance));
   if (s.tolerance >= 1.0) o.fail("tolerance", "is the relative residual to reach: it must be below 1, e.g. 1e-8");
-  if (kind == "cg") {
-    const std::string p = o.word("preconditioner", {"none", "jacobi", "block-jacobi"}, "jacobi");
-    s.preconditioner = p == "none"     ? mechanics::Preconditioner::None
-                       : p == "jacobi" ? mechanics::Preconditioner::Jacobi
-                                       : mechanics::Preconditioner::BlockJacobi;
-  }
+  if (s.kind == mechanics::SolverKind::Cg)
+    s.preconditioner = o.named("preconditioner", preconditionerNames, mechanics::Preconditioner::Jacobi);
   o.finish();
   return s;
 }
