@@ -1956,6 +1956,26 @@
             <source>This slice lies between elastography slices; slice %1 counts there.</source>
             <translation>Diese Schicht liegt zwischen Schichten der Elastographie; dort zählt Schicht %1.</translation>
         </message>
+        <message>
+            <source>Drag an ellipse from corner to corner; with Shift a circle.</source>
+            <translation>Eine Ellipse von Ecke zu Ecke ziehen; mit Umschalt einen Kreis.</translation>
+        </message>
+        <message>
+            <source>Paint on tissue: the disc keeps to what looks like where it was pressed, with Shift it takes all. [ and ] change its size.</source>
+            <translation>Auf Gewebe malen: die Scheibe hält sich an das, was so aussieht wie dort, wo gedrückt wurde; mit Umschalt nimmt sie alles. [ und ] ändern ihre Größe.</translation>
+        </message>
+        <message>
+            <source>Erase parts of outlines: the disc keeps to what looks like where it was pressed, with Shift it takes all. [ and ] change its size.</source>
+            <translation>Teile von Konturen wegradieren: die Scheibe hält sich an das, was so aussieht wie dort, wo gedrückt wurde; mit Umschalt nimmt sie alles. [ und ] ändern ihre Größe.</translation>
+        </message>
+        <message>
+            <source>Click along a border: the line follows the edges of the image from click to click.</source>
+            <translation>Entlang einer Grenze klicken: die Linie folgt den Kanten des Bildes von Klick zu Klick.</translation>
+        </message>
+        <message>
+            <source>Click points on the border: a smooth closed curve runs through them.</source>
+            <translation>Punkte auf der Grenze klicken: eine glatte geschlossene Kurve läuft durch sie.</translation>
+        </message>
     </context>
     <context>
         <name>glisson::panels::PlacementEditor</name>
@@ -2982,12 +3002,12 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
             <translation>Innenbereich: abseits des Randes messen</translation>
         </message>
         <message>
-            <source>Less erosion; sculpting: smaller disc</source>
-            <translation>Weniger Erosion; Formen: kleinere Scheibe</translation>
+            <source>Less erosion; with a disc in hand: smaller disc</source>
+            <translation>Weniger Erosion; mit einer Scheibe in der Hand: kleinere Scheibe</translation>
         </message>
         <message>
-            <source>More erosion; sculpting: larger disc</source>
-            <translation>Mehr Erosion; Formen: größere Scheibe</translation>
+            <source>More erosion; with a disc in hand: larger disc</source>
+            <translation>Mehr Erosion; mit einer Scheibe in der Hand: größere Scheibe</translation>
         </message>
         <message>
             <source>Hold to hide all overlays</source>
@@ -3249,6 +3269,38 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
             <source>Crosshair down by 10 pixels</source>
             <translation>Fadenkreuz 10 Pixel nach unten</translation>
         </message>
+        <message>
+            <source>Ellipse: drag from corner to corner; with Shift a circle</source>
+            <translation>Ellipse: von Ecke zu Ecke ziehen; mit Umschalt ein Kreis</translation>
+        </message>
+        <message>
+            <source>Brush that keeps to the edges of the image; with Shift the whole disc</source>
+            <translation>Pinsel, der sich an die Kanten des Bildes hält; mit Umschalt die ganze Scheibe</translation>
+        </message>
+        <message>
+            <source>Eraser that keeps to the edges of the image; with Shift the whole disc</source>
+            <translation>Radierer, der sich an die Kanten des Bildes hält; mit Umschalt die ganze Scheibe</translation>
+        </message>
+        <message>
+            <source>Livewire: clicks joined along the edges of the image</source>
+            <translation>Livewire: Klicks, entlang der Kanten des Bildes verbunden</translation>
+        </message>
+        <message>
+            <source>Spline: a smooth outline through the clicks</source>
+            <translation>Spline: eine glatte Kontur durch die Klicks</translation>
+        </message>
+        <message>
+            <source>Unite: join the selected outline with those it meets</source>
+            <translation>Vereinigen: die gewählte Kontur mit denen, die sie trifft</translation>
+        </message>
+        <message>
+            <source>Take out: cut the selected outline out of those it meets</source>
+            <translation>Abziehen: die gewählte Kontur von denen, die sie trifft</translation>
+        </message>
+        <message>
+            <source>In common: keep what the selected outline shares with those it meets</source>
+            <translation>Schnittmenge: behalten, was die gewählte Kontur mit denen teilt, die sie trifft</translation>
+        </message>
     </context>
     <context>
         <name>commands</name>
@@ -3339,6 +3391,26 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>unmark slice</source>
             <translation>Markierung aufheben</translation>
+        </message>
+        <message>
+            <source>brush</source>
+            <translation>malen</translation>
+        </message>
+        <message>
+            <source>erase</source>
+            <translation>radieren</translation>
+        </message>
+        <message>
+            <source>unite outlines</source>
+            <translation>Konturen vereinigen</translation>
+        </message>
+        <message>
+            <source>take outline out</source>
+            <translation>Kontur abziehen</translation>
+        </message>
+        <message>
+            <source>keep common part</source>
+            <translation>Schnittmenge behalten</translation>
         </message>
     </context>
     <context>
@@ -3434,6 +3506,46 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>Accepted.</source>
             <translation>Angenommen.</translation>
+        </message>
+        <message>
+            <source>Painted. Paint on, or press Enter to accept.</source>
+            <translation>Gemalt. Weitermalen, oder Eingabe nimmt an.</translation>
+        </message>
+        <message>
+            <source>There is no outline under the eraser.</source>
+            <translation>Unter dem Radierer liegt keine Kontur.</translation>
+        </message>
+        <message>
+            <source>The whole outline is erased; undo brings it back.</source>
+            <translation>Die ganze Kontur ist wegradiert; Rückgängig bringt sie zurück.</translation>
+        </message>
+        <message>
+            <source>Parts and holes of fewer than %1 voxels were left out: %2.</source>
+            <translation>Teile und Löcher mit weniger als %1 Voxeln wurden ausgelassen: %2.</translation>
+        </message>
+        <message>
+            <source>The selected outline meets no other one of its kind on this slice.</source>
+            <translation>Die gewählte Kontur trifft auf dieser Schicht keine andere ihrer Art.</translation>
+        </message>
+        <message>
+            <source>Nothing to do: the outlines mean that already.</source>
+            <translation>Nichts zu tun: die Konturen bedeuten das bereits.</translation>
+        </message>
+        <message>
+            <source>Not changed: no outline would be left.</source>
+            <translation>Nicht geändert: es bliebe keine Kontur übrig.</translation>
+        </message>
+        <message>
+            <source>The outlines are one region now.</source>
+            <translation>Die Konturen sind jetzt ein Bereich.</translation>
+        </message>
+        <message>
+            <source>The selected outline is taken out of those it met.</source>
+            <translation>Die gewählte Kontur ist von denen abgezogen, die sie traf.</translation>
+        </message>
+        <message>
+            <source>What the outlines had in common is left.</source>
+            <translation>Geblieben ist, was die Konturen gemeinsam hatten.</translation>
         </message>
     </context>
     <context>

@@ -16,7 +16,7 @@ inline std::string digestOf(session::Session& session, const std::string& sopIns
   if (session.tool().drawing().cols() > 0) {
     roi::Polygon inWork;
     inWork.state = roi::PolygonState::Draft;
-    inWork.points_lps_mm = session.tool().drawing();
+    inWork.points_lps_mm = session.tool().outlineInWork();
     inWork.sopInstanceUid = sopInstanceUid;
     all.polygons.push_back(inWork);
   }

@@ -323,6 +323,28 @@ void OutlinePanel::showActions() {
   acceptAll_->setEnabled(!covered.interpolated.empty());
 }
 
+// What the left button would do, where nothing is drawn or selected.
+QString OutlinePanel::hintOf(tools::ToolMode mode) {
+  switch (mode) {
+    case tools::ToolMode::Sculpt: return tr("Drag to push the outline with the disc; [ and ] change its size.");
+    case tools::ToolMode::Ellipse: return tr("Drag an ellipse from corner to corner; with Shift a circle.");
+    case tools::ToolMode::Brush:
+      return tr(
+          "Paint on tissue: the disc keeps to what looks like where it was pressed, with Shift it takes all. [ and "
+          "] change its size.");
+    case tools::ToolMode::Eraser:
+      return tr(
+          "Erase parts of outlines: the disc keeps to what looks like where it was pressed, with Shift it takes "
+          "all. [ and ] change its size.");
+    case tools::ToolMode::Livewire:
+      return tr("Click along a border: the line follows the edges of the image from click to click.");
+    case tools::ToolMode::Spline: return tr("Click points on the border: a smooth closed curve runs through them.");
+    case tools::ToolMode::Polygon:
+    case tools::ToolMode::Freehand: break;
+  }
+  return tr("Click vertices on the MRI, or drag to draw freehand. Click an outline to edit it.");
+}
+
 void OutlinePanel::showTool() {
   const tools::ToolState state = session_.tool().state();
   const bool drawing = state == tools::ToolState::Drawing, editing = state == tools::ToolState::Editing;
@@ -338,12 +360,7 @@ void OutlinePanel::showTool() {
   inner_->setChecked(session_.measureSettings().innerRoi);
   erosion_->setValue(session_.measureSettings().erosion_pixels);
   switch (state) {
-    case tools::ToolState::Idle:
-      stateText_->setText(
-          session_.tool().mode() == tools::ToolMode::Sculpt
-              ? tr("Drag to push the outline with the disc; [ and ] change its size.")
-              : tr("Click vertices on the MRI, or drag to draw freehand. Click an outline to edit it."));
-      break;
+    case tools::ToolState::Idle: stateText_->setText(hintOf(session_.tool().mode())); break;
     case tools::ToolState::Drawing:
       stateText_->setText(
           tr("Close on the first vertex, with a right click, a double click or Enter. Backspace takes "
@@ -357,7 +374,9 @@ void OutlinePanel::showTool() {
                               : tr("Drag vertices to adjust; Ctrl+click adds or deletes one. Enter accepts."));
       break;
     case tools::ToolState::Accepted:
-      stateText_->setText(tr("Accepted. It can still be edited; click beside it to draw the next."));
+      stateText_->setText(session_.tool().hasDisc()
+                              ? hintOf(session_.tool().mode())
+                              : tr("Accepted. It can still be edited; click beside it to draw the next."));
       break;
   }
 }

@@ -19,6 +19,10 @@ class Session;
 struct LiveStatistics;
 }  // namespace glisson::session
 
+namespace glisson::tools {
+enum class ToolMode;
+}
+
 namespace glisson::panels {
 
 class Keys;
@@ -47,6 +51,7 @@ class OutlinePanel : public SidePanel {
   void makeReadout(QVBoxLayout* side);
   void makeList(QVBoxLayout* side);
   void showTool();
+  static QString hintOf(tools::ToolMode mode);
   void showStatistics();
   void showOutlines();
   void showActions();

@@ -53,6 +53,14 @@ bool SegmentPage::runOutline(Command command) {
     case Command::Polygon: take(Hand::Outline, ToolMode::Polygon); return true;
     case Command::Freehand: take(Hand::Outline, ToolMode::Freehand); return true;
     case Command::Sculpt: take(Hand::Outline, ToolMode::Sculpt); return true;
+    case Command::Ellipse: take(Hand::Outline, ToolMode::Ellipse); return true;
+    case Command::Brush: take(Hand::Outline, ToolMode::Brush); return true;
+    case Command::Eraser: take(Hand::Outline, ToolMode::Eraser); return true;
+    case Command::Livewire: take(Hand::Outline, ToolMode::Livewire); return true;
+    case Command::Spline: take(Hand::Outline, ToolMode::Spline); return true;
+    case Command::Unite: session_.apply(tool.combine(roi::SetOperation::Union, mri_->plane())); return true;
+    case Command::Subtract: session_.apply(tool.combine(roi::SetOperation::Difference, mri_->plane())); return true;
+    case Command::Intersect: session_.apply(tool.combine(roi::SetOperation::Intersection, mri_->plane())); return true;
     case Command::CloseOrAccept: key(ToolKey::Enter); return true;
     case Command::CloseAndAccept: key(ToolKey::CtrlEnter); return true;
     case Command::LastVertex: hand_ == Hand::Measure ? measure_.removeLast() : key(ToolKey::Backspace); return true;
@@ -216,7 +224,7 @@ void SegmentPage::inner(int change) {
   session::MeasureSettings settings = session_.measureSettings();
   if (change == 0) {
     settings.innerRoi = !settings.innerRoi;
-  } else if (session_.tool().mode() == ToolMode::Sculpt && hand_ == Hand::Outline) {
+  } else if (session_.tool().hasDisc() && hand_ == Hand::Outline) {
     session_.tool().setBrushRadius(session_.tool().brushRadius() * (change > 0 ? 1.25 : 0.8));
     return;
   } else {

@@ -32,6 +32,10 @@ void SegmentPage::showMenu(const QPoint& at) {
   add(Command::Split, selected);
   add(Command::Trim, selected);
   menu.addSeparator();
+  add(Command::Unite, selected);
+  add(Command::Subtract, selected);
+  add(Command::Intersect, selected);
+  menu.addSeparator();
   add(Command::Include, selected);
   add(Command::Exclude, selected);
   menu.addSeparator();

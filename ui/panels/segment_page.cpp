@@ -75,13 +75,16 @@ void SegmentPage::makeStrip(QHBoxLayout* strip) {
     connect(b, &QPushButton::clicked, this, [this, command] { run(command); });
     return b;
   };
-  polygon_ = tool("polygonTool", "polygon", Command::Polygon);
-  freehand_ = tool("freehandTool", "freehand", Command::Freehand);
-  sculpt_ = tool("sculptTool", "sculpt", Command::Sculpt);
+  // In the order of ToolMode.
+  modes_ = {tool("polygonTool", "polygon", Command::Polygon),    tool("freehandTool", "freehand", Command::Freehand),
+            tool("sculptTool", "sculpt", Command::Sculpt),       tool("ellipseTool", "ellipse", Command::Ellipse),
+            tool("brushTool", "brush", Command::Brush),          tool("eraserTool", "eraser", Command::Eraser),
+            tool("livewireTool", "livewire", Command::Livewire), tool("splineTool", "spline", Command::Spline)};
   ruler_ = tool("measureTool", "measure", Command::Measure);
   window_ = tool("windowTool", "window", Command::WindowLevel);
-  for (QPushButton* b : {polygon_, freehand_, sculpt_, ruler_, window_}) group->addButton(b);
-  polygon_->setChecked(true);
+  for (QPushButton* b : modes_) group->addButton(b);
+  for (QPushButton* b : {ruler_, window_}) group->addButton(b);
+  modes_.front()->setChecked(true);
   spacing_ = new QSpinBox;
   spacing_->setObjectName(QStringLiteral("freehandSpacing"));
   spacing_->setRange(1, 100);
@@ -249,13 +252,11 @@ void SegmentPage::showSlice() {
 
 void SegmentPage::showTool() {
   const tools::ToolMode mode = session_.tool().mode();
-  QPushButton* active = hand_ == Hand::Measure              ? ruler_
-                        : hand_ == Hand::Window             ? window_
-                        : mode == tools::ToolMode::Freehand ? freehand_
-                        : mode == tools::ToolMode::Sculpt   ? sculpt_
-                                                            : polygon_;
+  QPushButton* active = hand_ == Hand::Measure  ? ruler_
+                        : hand_ == Hand::Window ? window_
+                                                : modes_[static_cast<std::size_t>(mode)];
   active->setChecked(true);
-  spacing_->setVisible(active == freehand_);
+  spacing_->setVisible(hand_ == Hand::Outline && mode == tools::ToolMode::Freehand);
   mri_->update();
   mre_->update();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -104,7 +105,8 @@ class SegmentPage : public QWidget {
   views::SliceView* alone_ = nullptr;  ///< the view that has the window; null: all
   double fusion_ = 0.0, lastFusion_ = 0.5;
   std::optional<Eigen::Vector3d> crosshair_;
-  QPushButton *polygon_, *freehand_, *sculpt_, *ruler_, *window_, *link_, *planesButton_ = nullptr;
+  std::array<QPushButton*, tools::toolModeCount> modes_{};  ///< by tool mode
+  QPushButton *ruler_, *window_, *link_, *planesButton_ = nullptr;
   QSpinBox* spacing_;  ///< of freehand points
   tools::MeasureTool measure_;
   Hand hand_ = Hand::Outline;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <set>
@@ -37,9 +38,13 @@ inline std::optional<SettledAct> settleInterpolated(const tools::Act& act, const
   } else if (const auto* moved = std::get_if<tools::ChangePoints>(&act)) {
     if (contours.polygons.at(moved->index).state != PolygonState::Interpolated) return std::nullopt;
     index = moved->index;
-  } else if (const auto* cut = std::get_if<tools::ReplacePolygon>(&act)) {
-    if (contours.polygons.at(cut->index).state != PolygonState::Interpolated) return std::nullopt;
-    index = cut->index;
+  } else if (const auto* made = std::get_if<tools::ReplacePolygons>(&act)) {
+    if (made->parts.empty() || made->indices.empty()) return std::nullopt;
+    const bool any = std::any_of(made->indices.begin(), made->indices.end(), [&](std::size_t i) {
+      return contours.polygons.at(i).state == PolygonState::Interpolated;
+    });
+    if (!any || made->parts.front().state == PolygonState::Draft) return std::nullopt;
+    index = made->indices.front();
   } else {
     return std::nullopt;
   }

@@ -263,7 +263,7 @@ commands::Outlines Session::countedNow() const {
     counted.polygons[*tool_.selected()].points_lps_mm = tool_.preview();
   if (tool_.drawing().cols() >= 3) {
     roi::Polygon inWork;
-    inWork.points_lps_mm = tool_.drawing();
+    inWork.points_lps_mm = tool_.outlineInWork();
     counted.polygons.push_back(std::move(inWork));
   }
   if (tool_.state() == tools::ToolState::Editing && tool_.selected() && *tool_.selected() < counted.polygons.size())

@@ -191,9 +191,9 @@ void Session::journal() {
   if (!journal_) return;
   roi::Polygon inWork;
   inWork.state = roi::PolygonState::Draft;
-  inWork.points_lps_mm = tool_.drawing();
+  inWork.points_lps_mm = tool_.outlineInWork();
   if (plane_) inWork.sopInstanceUid = plane_->sopInstanceUid;
-  journalledVertices_ = inWork.points_lps_mm.cols();
+  journalledVertices_ = tool_.drawing().cols();
   try {
     journal_->write(contours_, inWork, settings(), modified());
     journalFailed_ = false;

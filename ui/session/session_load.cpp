@@ -225,6 +225,7 @@ void Session::take(Opened& opened) {
   scan_ = std::move(opened.scan);
   guessed_ = std::move(opened.guessed);
   images_ = std::move(opened.images);
+  tool_.setImage(images_.mri);
   regions_ = std::move(opened.regions);
   contours_ = {};
   second_ = {};
@@ -332,6 +333,7 @@ void Session::readAgain(const Choices& choices) {
                     const Progress& progress) { *images = readImages(scan, guessed, root, choices, progress); },
                 [this, images, choices](std::exception_ptr failure) {
                   images_ = failure ? OpenImages{} : std::move(*images);
+                  tool_.setImage(images_.mri);
                   images_.choices = choices;
                   ++revision_;
                   unsaved_.settings = true;

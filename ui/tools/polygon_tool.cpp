@@ -38,6 +38,12 @@ Acts PolygonTool::press(const Pointer& at, const SlicePlane& plane) {
   pressed_px_ = at.px;
   pressedModifiers_ = at.modifiers;
   pressedHit_ = state() == ToolState::Drawing ? std::nullopt : hitTest(at.px, plane);
+  if (paints()) {
+    const double radius_mm = brush_px_ / plane.scale_px_mm.cwiseAbs().mean();
+    stroke_.emplace(plane, followsImage(plane) ? image_ : nullptr, plane.toPlane_mm(plane.toLps(at.px)), radius_mm);
+    drag_ = Drag::Brush;
+    paintTo(at, plane);
+  }
   return {};
 }
 
@@ -45,7 +51,7 @@ Acts PolygonTool::move(const Pointer& at, const SlicePlane& plane) {
   pointer_ = snapped(at, plane);
   const bool drawing = state() == ToolState::Drawing;
   closes_ = drawing && onFirstVertex(at, plane);
-  hover_ = drawing || drag_ == Drag::Freehand || mode_ == ToolMode::Sculpt ? std::nullopt : hitTest(at.px, plane);
+  hover_ = drawing || drag_ == Drag::Freehand || hasDisc() ? std::nullopt : hitTest(at.px, plane);
   if (drag_ == Drag::Press && ((at.px - pressed_px_).norm() > reach::drag_px || mode_ == ToolMode::Sculpt))
     beginDrag(plane);
 
@@ -62,6 +68,10 @@ Acts PolygonTool::move(const Pointer& at, const SlicePlane& plane) {
     for (const Eigen::Index v : vertices_) preview_.col(v) += shift;
   } else if (drag_ == Drag::Sculpt) {
     sculptTo(at.px, plane);
+  } else if (drag_ == Drag::Ellipse) {
+    drawEllipse(at, plane);
+  } else if (drag_ == Drag::Brush) {
+    paintTo(at, plane);
   } else if (drag_ == Drag::Box) {
     box_ = Box{pressed_px_, at.px};
   }
@@ -77,6 +87,13 @@ void PolygonTool::beginDrag(const SlicePlane& plane) {
   const bool drawing = state() == ToolState::Drawing;
   const bool handle = pressedHit_ && pressedHit_->kind != Hit::Kind::Inside;
   const bool ownInside = pressedHit_ && selected_ && pressedHit_->polygon == *selected_;
+  const bool moves = (handle || ownInside) && !pressedModifiers_.ctrl && !pressedModifiers_.shift;
+  if (mode_ == ToolMode::Ellipse && !moves) {
+    select(std::nullopt);
+    drag_ = Drag::Ellipse;
+    return;
+  }
+  if (curved() && (drawing || (!handle && !selected_))) return;  // a click, where it is let go
   if (drawing || mode_ == ToolMode::Freehand || (!handle && !selected_)) {
     drag_ = Drag::Freehand;
     select(std::nullopt);
@@ -90,7 +107,7 @@ void PolygonTool::beginDrag(const SlicePlane& plane) {
     } else {
       lastFreehand_px_ = plane.toPixel(points_.col(points_.cols() - 1));
     }
-  } else if ((handle || ownInside) && !pressedModifiers_.ctrl && !pressedModifiers_.shift) {
+  } else if (moves) {
     drag_ = Drag::Move;
     const std::size_t polygon = pressedHit_->polygon;
     const Eigen::Matrix3Xd& points = contours_.polygons[polygon].points_lps_mm;
@@ -122,6 +139,16 @@ Acts PolygonTool::endDrag(Drag was, const Pointer& at, const SlicePlane& plane) 
     if (!closing) addVertex(plane.toLps(at.px));
     endFreehand(plane);
     return closing || mode_ == ToolMode::Freehand ? close(plane, false) : Acts{};
+  }
+  if (was == Drag::Ellipse) {
+    drawEllipse(at, plane);
+    if (shape_.empty()) return {};
+    Eigen::Matrix3Xd ring = std::exchange(shape_, {}).front();
+    return closeOutline(std::move(ring), plane, false);
+  }
+  if (was == Drag::Brush) {
+    paintTo(at, plane);
+    return endBrush(plane);
   }
   if (was == Drag::Move || was == Drag::Sculpt) {
     const bool sculpted = was == Drag::Sculpt;

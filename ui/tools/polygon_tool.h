@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,9 @@
 #include <vector>
 
 #include "roi/contour_stack.h"
+#include "roi/edge_paths.h"
+#include "roi/set_operations.h"
+#include "tools/brush_stroke.h"
 #include "tools/sentences.h"
 #include "tools/slice_plane.h"
 
@@ -21,8 +25,10 @@ inline constexpr double closeTouch_px = 36.0;  ///< the same for a finger
 inline constexpr double hit_px = 6.0;          ///< vertex or edge under the mouse; a vertex wins
 inline constexpr double drag_px = 3.0;         ///< less is a click
 inline constexpr double freehand_px = 8.0;     ///< spacing of freehand points, where nobody chose another (1–100)
-inline constexpr double brush_px = 26.0;       ///< radius of the sculpting disc, where nobody chose another (4–200)
+inline constexpr double brush_px = 26.0;       ///< radius of the disc, where nobody chose another (4–200)
 inline constexpr double simplify = 0.25;       ///< of a pixel spacing: freehand tolerance
+inline constexpr double round = 0.02;          ///< of the radius of the disc, where that is less: strokes
+inline constexpr double smooth = 0.1;          ///< of a pixel spacing: polygons of ellipses and splines
 inline constexpr int minimumVoxels = 4;        ///< a smaller region is refused
 }  // namespace reach
 
@@ -34,7 +40,11 @@ struct Modifiers {
 };
 
 /// What the left button does. Freehand: a drag always draws, and letting go closes. Sculpt: a disc pushes the outline.
-enum class ToolMode { Polygon, Freehand, Sculpt };
+/// Ellipse: a drag draws one, with Shift a circle. Brush, Eraser: a disc adds to the outlines under it, or takes away,
+/// as far as the image looks like where it was pressed; with Shift all that lies under it. Livewire: clicks are joined
+/// along the edges of the image. Spline: a smooth closed curve runs through the clicked points.
+enum class ToolMode { Polygon, Freehand, Sculpt, Ellipse, Brush, Eraser, Livewire, Spline };
+inline constexpr std::size_t toolModeCount = static_cast<std::size_t>(ToolMode::Spline) + 1;
 
 /// A mouse position of the view.
 struct Pointer {
@@ -68,12 +78,15 @@ struct ChangeKind {
   std::size_t index;
   bool exclude;
 };
-/// One polygon gives way to parts of it: the first takes its place, the others come last.
-struct ReplacePolygon {
-  std::size_t index;
+enum class ReplaceReason { Cut, Brush, Erase, Unite, Subtract, Intersect };
+/// Polygons give way to others: those that come first take their places, what is more comes last; places without a
+/// successor go.
+struct ReplacePolygons {
+  std::vector<std::size_t> indices;  ///< ascending; none: all parts are new
   std::vector<roi::Polygon> parts;
+  ReplaceReason reason;
 };
-using Act = std::variant<AddPolygon, RemovePolygon, ChangePoints, ChangeState, ChangeKind, ReplacePolygon>;
+using Act = std::variant<AddPolygon, RemovePolygon, ChangePoints, ChangeState, ChangeKind, ReplacePolygons>;
 using Acts = std::vector<Act>;
 
 /// What is under the mouse: a vertex, an edge (from vertex to vertex + 1), or the inside of a polygon.
@@ -107,6 +120,9 @@ class PolygonTool {
   double freehandSpacing() const { return freehand_px_; }
   void setBrushRadius(double px);
   double brushRadius() const { return brush_px_; }
+  bool hasDisc() const { return mode_ == ToolMode::Sculpt || paints(); }
+  /// The image that is drawn on: what brush, eraser and livewire follow. Null: they follow nothing.
+  void setImage(std::shared_ptr<const image::ScalarVolume> image);
 
   // Acts on the selection; nothing where nothing is selected, with the reason as the message.
   Acts nudge(const Eigen::Vector2d& pixels, const SlicePlane& plane);  ///< image pixels to the right and down the view
@@ -115,6 +131,9 @@ class PolygonTool {
   Acts trim(const SlicePlane&
                 plane);  ///< two vertices apart: cuts the smaller part off; else every second selected vertex goes
   Acts setKind(bool exclude);
+  /// The selected outline, as a set of points, with those of its kind on the slice that it meets: they become one
+  /// region (Union), it is taken out of them (Difference), or what both hold stays (Intersection).
+  Acts combine(roi::SetOperation operation, const SlicePlane& plane);
   void selectAll(const SlicePlane& plane);  ///< the selected outline as a whole, else the nearest of the slice
   void deselect() { select(std::nullopt); }
   /// Whole gestures that ended in a wish for the properties of an outline; asked once.
@@ -130,7 +149,13 @@ class PolygonTool {
 
   // What a view shows.
   ToolState state() const;
-  const Eigen::Matrix3Xd& drawing() const { return points_; }                 ///< 3 × n LPS mm, open
+  const Eigen::Matrix3Xd& drawing() const { return points_; }  ///< clicked points, 3 × n LPS mm, open
+  /// The outline that closing would make of them now; the same points but for Livewire and Spline.
+  const Eigen::Matrix3Xd& outlineInWork() const { return outline_.cols() > 0 ? outline_ : points_; }
+  /// Livewire and Spline: the line through the clicked points and the mouse; empty in other modes.
+  const Eigen::Matrix3Xd& curve() const { return curve_; }
+  /// What a drag has drawn so far, closed rings, LPS mm: an ellipse, or what brush or eraser went over.
+  const std::vector<Eigen::Matrix3Xd>& shape() const { return shape_; }
   const std::optional<Eigen::Vector3d>& pointer() const { return pointer_; }  ///< end of the rubber band, LPS mm
   bool closes() const { return closes_; }                                     ///< the mouse is on the first vertex
   bool crosses() const { return crosses_; }                                   ///< the outline in work crosses itself
@@ -144,15 +169,15 @@ class PolygonTool {
     Eigen::Vector2d from_px, to_px;
   };
   std::optional<Box> box() const { return box_; }
-  /// Centre of the sculpting disc, LPS mm, while the mouse is over the view in this mode.
-  std::optional<Eigen::Vector3d> brush() const { return mode_ == ToolMode::Sculpt ? pointer_ : std::nullopt; }
+  /// Centre of the disc, LPS mm, while the mouse is over the view in a mode that has one.
+  std::optional<Eigen::Vector3d> brush() const { return hasDisc() ? pointer_ : std::nullopt; }
   bool dragging() const { return drag_ != Drag::None && drag_ != Drag::Press; }
   /// One sentence for the status line: a refusal, a question, a hint. Empty where there is nothing to say.
   const Sentence& message() const { return message_; }
   Sentence takeMessage() { return std::exchange(message_, {}); }  ///< to be said once
 
  private:
-  enum class Drag { None, Press, Freehand, Move, Box, Sculpt };
+  enum class Drag { None, Press, Freehand, Move, Box, Sculpt, Ellipse, Brush };
 
   std::optional<Hit> hitTest(const Eigen::Vector2d& px, const SlicePlane& plane) const;
   bool onFirstVertex(const Pointer& at, const SlicePlane& plane) const;
@@ -167,17 +192,44 @@ class PolygonTool {
   void endFreehand(const SlicePlane& plane);
   Acts click(const Pointer& at, const SlicePlane& plane);
   Acts close(const SlicePlane& plane, bool accept);
+  Acts closeOutline(Eigen::Matrix3Xd points, const SlicePlane& plane, bool accept);
   Acts accept(const SlicePlane& plane);
   Acts removeSelection(const SlicePlane& plane);
   Acts changed(std::size_t index, Eigen::Matrix3Xd points, PointsChange change, const SlicePlane& plane);
   Acts cutAlong(std::size_t index, Eigen::Matrix3Xd first, Eigen::Matrix3Xd second, const SlicePlane& plane);
   bool crosses(const Eigen::Matrix3Xd& points, const SlicePlane& plane) const;
   Sentence refusal(const Eigen::Matrix3Xd& points, const SlicePlane& plane, bool edit = false) const;
-  roi::Polygon polygonOf(const SlicePlane& plane, roi::PolygonState state) const;
+  static roi::Polygon polygonOf(Eigen::Matrix3Xd points, const SlicePlane& plane, roi::PolygonState state);
   Eigen::Matrix2Xd planePoints(const Eigen::Matrix3Xd& points, const SlicePlane& plane) const;
   void updateCrossing(const SlicePlane& plane);
   void select(std::optional<std::size_t> polygon, std::vector<Eigen::Index> vertices = {});
   void clearDrawing();
+  // polygon_tool_curves.cpp
+  bool curved() const { return mode_ == ToolMode::Livewire || mode_ == ToolMode::Spline; }
+  void updateCurve(const SlicePlane& plane);
+  Eigen::Matrix3Xd closedOutline(const SlicePlane& plane);
+  const Eigen::Matrix3Xd& legBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const SlicePlane& plane);
+  Eigen::Matrix3Xd pathBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const SlicePlane& plane);
+  Eigen::Matrix3Xd spline(const Eigen::Matrix3Xd& through, const SlicePlane& plane) const;
+  void drawEllipse(const Pointer& at, const SlicePlane& plane);
+  // polygon_tool_regions.cpp
+  bool paints() const { return mode_ == ToolMode::Brush || mode_ == ToolMode::Eraser; }
+  bool followsImage(const SlicePlane& plane) const;
+  void paintTo(const Pointer& at, const SlicePlane& plane);
+  Acts endBrush(const SlicePlane& plane);
+  roi::FlatRegion regionOf(const std::vector<std::size_t>& polygons, const SlicePlane& plane) const;
+  std::vector<std::size_t> meeting(std::vector<Outline> rings, bool exclude, std::optional<std::size_t> without,
+                                   const SlicePlane& plane) const;
+  struct Parts {
+    std::vector<roi::Polygon> parts;    ///< new ones, largest first
+    std::vector<std::size_t> replaced;  ///< those of the group that are not among the result as they were
+    std::size_t small = 0;              ///< parts and holes left out for holding too few voxels
+  };
+  /// group: what the region was made of. like: state and kind of new parts.
+  Parts partsOf(const roi::FlatRegion& region, const std::vector<std::size_t>& group, const roi::Polygon& like,
+                const SlicePlane& plane) const;
+  roi::PolygonState stateOf(const std::vector<std::size_t>& polygons) const;
+  Acts replaced(Parts parts, ReplaceReason reason, const char* said);
 
   const roi::ContourStack& contours_;
   Eigen::Matrix3Xd points_;             ///< of the outline in work
@@ -200,6 +252,18 @@ class PolygonTool {
   ToolMode mode_ = ToolMode::Polygon;
   double freehand_px_ = reach::freehand_px, brush_px_ = reach::brush_px;
   std::optional<std::size_t> properties_;
+  std::shared_ptr<const image::ScalarVolume> image_;
+  std::vector<Eigen::Matrix3Xd> shape_;
+  std::optional<BrushStroke> stroke_;
+  Eigen::Matrix3Xd curve_, outline_;
+  struct Leg {
+    Eigen::Vector3d from, to;
+    Eigen::Matrix3Xd path;  ///< with both ends
+  };
+  std::vector<Leg> legs_;  ///< between clicked points, found once each
+  std::optional<roi::EdgePaths> paths_;
+  int pathsSlice_ = -1;
+  std::optional<Eigen::Vector3d> pathsFrom_;  ///< where paths_ starts
 };
 
 }  // namespace glisson::tools

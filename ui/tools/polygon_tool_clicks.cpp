@@ -45,6 +45,10 @@ Acts PolygonTool::click(const Pointer& at, const SlicePlane& plane) {
       select(std::nullopt);
     return {};
   }
+  if (mode_ == ToolMode::Ellipse) {
+    if (insideAny) select(pressedHit_->polygon, allOf(contours_.polygons[pressedHit_->polygon].points_lps_mm));
+    return {};
+  }
   // Idle, or Shift inside a region: the first vertex (of a hole, by the even-odd rule, where it lies inside a region).
   select(std::nullopt);
   past_.push_back(points_);
@@ -91,6 +95,7 @@ Acts PolygonTool::clickHandle(const Pointer& at, const SlicePlane& plane) {
 }
 
 Acts PolygonTool::doubleClick(const Pointer& at, const SlicePlane& plane) {
+  if (hasDisc()) return press(at, plane);  // a quick second touch of the disc
   // The press and release before it were clicks already: in Drawing they added the last vertex.
   if (state() == ToolState::Drawing) {
     const bool justBegun = points_.cols() == 1 && (plane.toPixel(points_.col(0)) - at.px).norm() <= reach::hit_px;
@@ -128,6 +133,11 @@ Acts PolygonTool::rightClick(const Pointer& at, const SlicePlane& plane) {
 
 Acts PolygonTool::key(ToolKey key, const SlicePlane& plane) {
   message_ = {};
+  if (key == ToolKey::Escape && (drag_ == Drag::Ellipse || drag_ == Drag::Brush)) {
+    drag_ = Drag::None;
+    clearDrawing();
+    return {};
+  }
   const ToolState now = state();
   switch (key) {
     case ToolKey::Enter:
@@ -150,7 +160,7 @@ Acts PolygonTool::key(ToolKey key, const SlicePlane& plane) {
         const std::size_t index = *selected_;
         select(std::nullopt);
         points_ = contours_.polygons[index].points_lps_mm;
-        if (mode_ == ToolMode::Sculpt) mode_ = ToolMode::Polygon;
+        if (mode_ != ToolMode::Freehand) mode_ = ToolMode::Polygon;
         return {RemovePolygon{index}};
       }
       return {};
@@ -177,7 +187,7 @@ Acts PolygonTool::key(ToolKey key, const SlicePlane& plane) {
 Acts PolygonTool::leaveSlice(const SlicePlane& plane) {
   Acts acts;
   if (points_.cols() > 0) {
-    acts.emplace_back(AddPolygon{polygonOf(plane, roi::PolygonState::Draft)});
+    acts.emplace_back(AddPolygon{polygonOf(outlineInWork(), plane, roi::PolygonState::Draft)});
     message_ = {say::parkedOnSlice, {std::to_string(plane.slice + 1)}};
   }
   drag_ = Drag::None;

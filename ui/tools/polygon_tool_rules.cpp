@@ -82,11 +82,16 @@ void PolygonTool::endFreehand(const SlicePlane& plane) {
 }
 
 Acts PolygonTool::close(const SlicePlane& plane, bool acceptToo) {
-  message_ = refusal(points_, plane);
+  return closeOutline(closedOutline(plane), plane, acceptToo);
+}
+
+Acts PolygonTool::closeOutline(Eigen::Matrix3Xd points, const SlicePlane& plane, bool acceptToo) {
+  message_ = refusal(points, plane);
   if (!message_.empty()) return {};
-  const bool crossing = crosses(points_, plane);
+  const bool crossing = crosses(points, plane);
   const bool accepted = acceptToo && !crossing;
-  roi::Polygon polygon = polygonOf(plane, accepted ? roi::PolygonState::Accepted : roi::PolygonState::Draft);
+  roi::Polygon polygon =
+      polygonOf(std::move(points), plane, accepted ? roi::PolygonState::Accepted : roi::PolygonState::Draft);
   clearDrawing();
   select(contours_.polygons.size());  // its place once it is added
   message_ = {crossing ? say::closedCrossing : accepted ? say::accepted : say::closed, {}};
@@ -156,8 +161,7 @@ Sentence PolygonTool::refusal(const Eigen::Matrix3Xd& points, const SlicePlane& 
   const int distinct = distinctPoints(outline, 1e-6);
   if (distinct < 3) return {edit ? say::fewVerticesLeft : say::fewVertices, {std::to_string(distinct)}};
   roi::ContourStack alone;
-  alone.polygons.push_back(polygonOf(plane, roi::PolygonState::Accepted));
-  alone.polygons.front().points_lps_mm = points;
+  alone.polygons.push_back(polygonOf(points, plane, roi::PolygonState::Accepted));
   std::ptrdiff_t voxels = 0;
   try {
     const image::Mask mask = roi::rasterise(alone, plane.sliceGrid());
@@ -170,9 +174,9 @@ Sentence PolygonTool::refusal(const Eigen::Matrix3Xd& points, const SlicePlane& 
   return {};
 }
 
-roi::Polygon PolygonTool::polygonOf(const SlicePlane& plane, roi::PolygonState state) const {
+roi::Polygon PolygonTool::polygonOf(Eigen::Matrix3Xd points, const SlicePlane& plane, roi::PolygonState state) {
   roi::Polygon polygon;
-  polygon.points_lps_mm = points_;
+  polygon.points_lps_mm = std::move(points);
   polygon.state = state;
   polygon.sopInstanceUid = plane.sopInstanceUid;
   return polygon;
@@ -185,8 +189,13 @@ Eigen::Matrix2Xd PolygonTool::planePoints(const Eigen::Matrix3Xd& points, const 
 }
 
 void PolygonTool::updateCrossing(const SlicePlane& plane) {
+  updateCurve(plane);
   if (preview_.cols() > 0) {
     crosses_ = crossesItself(planePoints(preview_, plane), true);
+  } else if (curved()) {
+    // A livewire is judged once it is closed: near its clicks it may run along one edge twice.
+    crosses_ = mode_ == ToolMode::Spline && curve_.cols() > 3 &&
+               crossesItself(planePoints(curve_.leftCols(curve_.cols() - 1), plane), true);
   } else if (state() == ToolState::Drawing) {
     Eigen::Matrix3Xd band = points_;
     if (pointer_ && drag_ != Drag::Freehand && !closes_) {
@@ -207,6 +216,11 @@ void PolygonTool::select(std::optional<std::size_t> polygon, std::vector<Eigen::
 
 void PolygonTool::clearDrawing() {
   points_.resize(3, 0);
+  curve_.resize(3, 0);
+  outline_.resize(3, 0);
+  legs_.clear();
+  shape_.clear();
+  stroke_.reset();
   past_.clear();
   future_.clear();
   closes_ = crosses_ = false;

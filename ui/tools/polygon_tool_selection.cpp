@@ -14,6 +14,8 @@ namespace glisson::tools {
 Acts PolygonTool::setMode(ToolMode mode, const SlicePlane& plane) {
   if (mode == mode_) return {};
   Acts acts = points_.cols() > 0 ? leaveSlice(plane) : Acts{};
+  if (drag_ == Drag::Ellipse || drag_ == Drag::Brush) drag_ = Drag::None;
+  clearDrawing();  // nothing of it is done again by another tool
   mode_ = mode;
   hover_.reset();
   return acts;
@@ -141,7 +143,7 @@ Acts PolygonTool::cutAlong(std::size_t index, Eigen::Matrix3Xd first, Eigen::Mat
     }
   }
   select(index);
-  return {ReplacePolygon{index, std::move(parts)}};
+  return {ReplacePolygons{{index}, std::move(parts), ReplaceReason::Cut}};
 }
 
 Acts PolygonTool::setKind(bool exclude) {

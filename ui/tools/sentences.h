@@ -56,6 +56,16 @@ inline constexpr const char* splitNeeds = "Split needs an edge (two neighbours) 
 inline constexpr const char* trimNeeds = "Trim needs more vertices: at least three stay.";
 inline constexpr const char* leftOut = "This outline is left out of the region.";
 inline constexpr const char* counts = "This outline counts.";
+inline constexpr const char* painted = "Painted. Paint on, or press Enter to accept.";
+inline constexpr const char* nothingToErase = "There is no outline under the eraser.";
+inline constexpr const char* erased = "The whole outline is erased; undo brings it back.";
+inline constexpr const char* smallParts = "Parts and holes of fewer than %1 voxels were left out: %2.";
+inline constexpr const char* meetsNone = "The selected outline meets no other one of its kind on this slice.";
+inline constexpr const char* combinedAlready = "Nothing to do: the outlines mean that already.";
+inline constexpr const char* nothingLeft = "Not changed: no outline would be left.";
+inline constexpr const char* united = "The outlines are one region now.";
+inline constexpr const char* takenOut = "The selected outline is taken out of those it met.";
+inline constexpr const char* shared = "What the outlines had in common is left.";
 }  // namespace say
 
 }  // namespace glisson::tools

@@ -139,6 +139,7 @@ class SliceView : public QWidget {
   void renderBackdrop();
   void paintContours(QPainter& painter) const;
   void paintOutlineInWork(QPainter& painter, const tools::SlicePlane& plane) const;
+  void paintShape(QPainter& painter, const tools::SlicePlane& shown) const;
   void paintCursor(QPainter& painter) const;
   void paintExtras(QPainter& painter, const tools::SlicePlane& plane) const;
   void paintLabels(QPainter& painter) const;

@@ -10,6 +10,7 @@
 
 #include "views/colour_map.h"
 #include "views/line_work.h"
+#include "views/slice_ink.h"
 #include "views/slice_view.h"
 
 namespace glisson::views {
@@ -17,33 +18,6 @@ namespace glisson::views {
 namespace {
 
 constexpr int hatchScale = 6;  // hatch pixels per voxel
-const QColor paper(16, 18, 22);
-const QColor ink(226, 232, 240);
-const QColor faint(148, 160, 176);
-const QColor acceptedColour(255, 209, 71);
-const QColor draftColour(110, 205, 255);
-const QColor crossingColour(255, 82, 160);
-const QColor excludedColour(255, 140, 66);
-const QColor secondColour(196, 148, 255);
-const QColor measureColour(120, 240, 180);
-
-QPointF point(const Eigen::Vector2d& p) {
-  return {p.x(), p.y()};
-}
-
-QPolygonF toScreen(const Eigen::Matrix3Xd& points, const tools::SlicePlane& plane) {
-  QPolygonF polygon;
-  polygon.reserve(points.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i) polygon << point(plane.toPixel(points.col(i)));
-  return polygon;
-}
-
-void drawHandle(QPainter& painter, const QPointF& at, const QColor& colour, bool strong) {
-  const double r = strong ? 4.5 : 3.0;
-  painter.setPen(QPen(QColor(0, 0, 0, 190), 1.2));
-  painter.setBrush(strong ? QColor(Qt::white) : colour);
-  painter.drawRect(QRectF(at.x() - r, at.y() - r, 2 * r, 2 * r));
-}
 
 /// Text that reads on bright and on dark: dark copies of it all around make its halo. Each text is drawn once and kept
 /// as a picture; stroking the outlines of its glyphs would take ten times as long.
@@ -215,7 +189,7 @@ std::optional<QPointF> SliceView::seenAt(const Eigen::Vector3d& p_lps) const {
   return point(plane().toPixel(p_lps));
 }
 
-// A second reader, the inner region, distances, and the sculpting disc.
+// A second reader, the inner region, distances, and the disc of the tool in hand.
 void SliceView::paintExtras(QPainter& painter, const tools::SlicePlane& shown) const {
   LineWork lines(rect());
   if (second_)
@@ -260,31 +234,6 @@ void SliceView::paintExtras(QPainter& painter, const tools::SlicePlane& shown) c
     painter.setBrush(QColor(255, 255, 255, 20));
     painter.drawEllipse(point(shown.toPixel(*tool_->brush())), tool_->brushRadius(), tool_->brushRadius());
   }
-}
-
-void SliceView::paintOutlineInWork(QPainter& painter, const tools::SlicePlane& shown) const {
-  if (tool_->box()) {
-    painter.setPen(QPen(ink, 1.0, Qt::DashLine));
-    painter.setBrush(QColor(255, 255, 255, 24));
-    painter.drawRect(QRectF(point(tool_->box()->from_px), point(tool_->box()->to_px)).normalized());
-  }
-  if (tool_->drawing().cols() == 0) return;
-  QPolygonF line = toScreen(tool_->drawing(), shown);
-  const QPolygonF vertices = line;
-  if (tool_->closes())
-    line << vertices.front();
-  else if (tool_->pointer())
-    line << point(shown.toPixel(*tool_->pointer()));
-  const QColor colour = tool_->crosses() ? crossingColour : draftColour;
-  LineWork lines(rect());
-  lines.add(line, false, colour, 1.8, tool_->crosses());
-  lines.paint(painter);
-  if (vertices.size() < 400)
-    for (const QPointF& v : vertices) drawHandle(painter, v, colour, false);
-  painter.setPen(QPen(tool_->closes() ? QColor(Qt::white) : colour, tool_->closes() ? 2.5 : 1.2));
-  painter.setBrush(Qt::NoBrush);
-  const double r = tool_->closes() ? tools::reach::close_px : 6.5;
-  painter.drawEllipse(vertices.front(), r, r);
 }
 
 void SliceView::paintCursor(QPainter& painter) const {

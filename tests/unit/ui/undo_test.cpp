@@ -17,7 +17,7 @@ void randomWork(ToolBench& b, std::uint64_t seed, int gestures) {
   for (int n = 0; n < gestures; ++n) {
     const double x = random.uniform(-20, 520), y = random.uniform(-20, 520);
     const tools::Modifiers m{random.uniform() < 0.15, random.uniform() < 0.15};
-    const auto action = random.below(15);
+    const auto action = random.below(16);
     if (action < 5)
       b.click(x, y, m);
     else if (action == 5)
@@ -32,13 +32,15 @@ void randomWork(ToolBench& b, std::uint64_t seed, int gestures) {
       b.apply(b.tool.leaveSlice(b.plane));
       b.plane.slice = static_cast<int>(random.below(5));
     } else if (action == 10)
-      b.apply(b.tool.setMode(static_cast<tools::ToolMode>(random.below(3)), b.plane));
+      b.apply(b.tool.setMode(static_cast<tools::ToolMode>(random.below(tools::toolModeCount)), b.plane));
     else if (action == 11)
       b.apply(random.uniform() < 0.5 ? b.tool.split(b.plane) : b.tool.trim(b.plane));
     else if (action == 12)
       b.apply(b.tool.setKind(random.uniform() < 0.5));
     else if (action == 13)
       b.apply(b.tool.nudge({random.uniform(-1, 1), random.uniform(-1, 1)}, b.plane));
+    else if (action == 14)
+      b.apply(b.tool.combine(static_cast<roi::SetOperation>(random.below(3)), b.plane));
     else
       b.tool.selectAll(b.plane);
   }
