@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 static_assert(std::endian::native == std::endian::little, "values are written as they lie in memory");
 
 constexpr char magic[8] = {'G', 'L', 'I', 'S', 'S', 'O', 'N', 'R'};
-constexpr std::uint64_t form = 1;  ///< grows with every change of the fields below
+constexpr std::uint64_t form = 2;  ///< grows with every change of the fields below
 constexpr std::size_t digestLength = 64;
 
 DiagnosticCode codeNamed(const std::string& name) {
@@ -279,8 +279,8 @@ void one(Archive& a, elastography::SliceStatistics& s) {
 
 void one(Archive& a, elastography::Measurement& m) {
   a(m.quantity, m.pooled, m.uncertainty, m.interval, m.slices, m.areaWeightedMean_kPa, m.youngs_mean_kPa,
-    m.shear_mean_kPa, m.poisson, m.notFinite, m.notPositive, m.lowConfidence, m.noConfidence, m.warnings,
-    m.diagnostics);
+    m.shear_mean_kPa, m.poisson, m.drawn, m.rim, m.excluded, m.meanOfAll_kPa, m.notFinite, m.notPositive,
+    m.lowConfidence, m.noConfidence, m.warnings, m.diagnostics);
 }
 
 void one(Archive& a, retraction::Retractor& r) {
