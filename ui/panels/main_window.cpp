@@ -84,6 +84,7 @@ MainWindow::MainWindow(QWidget* parent)
   makeMenus();
   makeStatusLine();
   connectSession();
+  connect(compare_, &ComparePage::runWanted, this, &MainWindow::run);
   refreshIcons();
   showStep(Step::Load);
   updateStatus();
