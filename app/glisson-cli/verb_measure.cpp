@@ -4,6 +4,7 @@
 
 #include "base/quantity_names.h"
 #include "diagnostics_json.h"
+#include "elastography/reading.h"
 #include "pipeline/measure.h"
 #include "roles_option.h"
 #include "slicer_xml.h"
@@ -62,6 +63,24 @@ Json toJson(const elastography::Registration& r) {
           {"similarity_after", r.similarityAfter}};
 }
 
+/// What a reader has to know beside the mean.
+Json toJson(const elastography::Reading& r, const elastography::Measurement& m) {
+  Json slices = Json::array();
+  for (const elastography::Reading::Slice& s : r.slices)
+    slices.push_back({{"slice", s.slice}, {"fault", nameOf(s.fault)}});
+  return {{"outlined_voxels", m.drawn},
+          {"share_measured", r.shareMeasured},
+          {"mean_of_all_kPa", orNull(m.meanOfAll_kPa)},
+          {"mean_change", r.meanChange},
+          {"change_to_be_real_kPa", orNull(r.changeToBeReal_kPa)},
+          {"repeatability_coefficient", elastography::repeatabilityCoefficient},
+          {"repeatability_source", "qiba2022mre"},
+          {"smallest_region_mm2", elastography::smallestRegion_mm2},
+          {"region_small", r.small},
+          {"slices_failed", r.failed},
+          {"slices", slices}};
+}
+
 /// The series that were used, by uid.
 Json sourcesOf(const pipeline::LoadedStiffness& mre) {
   const auto uid = [&mre](int i) {
@@ -70,6 +89,40 @@ Json sourcesOf(const pipeline::LoadedStiffness& mre) {
   return {{"stiffness", uid(mre.acquisition.stiffness)},
           {"confidence", uid(mre.acquisition.confidence)},
           {"magnitude", uid(mre.acquisition.magnitude)}};
+}
+
+/// How the elastogram was acquired, as far as its files say.
+Json acquisitionOf(const pipeline::LoadedStiffness& mre) {
+  if (mre.acquisition.stiffness < 0) return nullptr;
+  const dicom::Series& series = mre.scan->series[static_cast<std::size_t>(mre.acquisition.stiffness)];
+  const auto orUnknown = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
+  return {{"manufacturer", orUnknown(series.acquired.manufacturer)},
+          {"sequence", orUnknown(series.acquired.sequenceName)},
+          {"vibration_Hz", series.vibration_Hz ? Json(*series.vibration_Hz) : Json(nullptr)}};
+}
+
+/// For people: a line for each slice, the pooled one, and what stands beside the mean.
+std::string inWords(const elastography::Measurement& m, const std::vector<std::string>& warnings) {
+  std::ostringstream text;
+  text.precision(4);
+  auto line = [&](const std::string& name, const elastography::Statistics& s) {
+    text << name << "  " << s.n_before_mask << " px -> " << s.n << " after mask, " << s.area_mm2 << " mm2, "
+         << s.mean_kPa << " +- " << s.sd_kPa << " kPa, median " << s.median_kPa << ", " << s.min_kPa << " to "
+         << s.max_kPa << "\n";
+  };
+  text << (m.quantity == StiffnessQuantity::Shear ? "shear modulus" : "Young's modulus") << "\n";
+  for (const elastography::SliceStatistics& s : m.slices) line("slice " + std::to_string(s.slice), s.statistics);
+  line("pooled", m.pooled);
+  const elastography::Reading reading = elastography::readingOf(m);
+  text << "a change is real from " << reading.changeToBeReal_kPa << " kPa (19 % of the mean, QIBA profile); "
+       << 100 * reading.shareMeasured << " % of what is outlined was measured\n";
+  for (const elastography::Reading::Slice& s : reading.slices)
+    if (s.fault == elastography::SliceFault::NoReliableWave)
+      text << "slice " << s.slice << " is a technical failure: no reliable wave in it\n";
+  if (reading.small) text << "the region is smaller than " << elastography::smallestRegion_mm2 << " mm2\n";
+  text << "mean Young's modulus " << m.youngs_mean_kPa << " kPa at Poisson's ratio " << m.poisson << "\n";
+  for (const std::string& w : warnings) text << "warning: " << w << "\n";
+  return text.str();
 }
 
 int measure(const Arguments& a, const Context& context) {
@@ -104,24 +157,18 @@ int measure(const Arguments& a, const Context& context) {
                    {"not_positive", m.notPositive},
                    {"low_confidence", m.lowConfidence},
                    {"no_confidence", m.noConfidence}};
-  if (measured.mre.scan) j["sources"] = sourcesOf(measured.mre);
+  j["left_out"]["rim"] = m.rim;
+  j["left_out"]["excluded"] = m.excluded;
+  j["reading"] = toJson(elastography::readingOf(m), m);
+  if (measured.mre.scan) {
+    j["sources"] = sourcesOf(measured.mre);
+    j["acquisition"] = acquisitionOf(measured.mre);
+  }
   j["warnings"] = warnings;
   j["diagnostics"] = diagnosticsJson(measured.diagnostics, warnings);
   refuseIfStrict(context, measured.diagnostics, warnings);
 
-  std::ostringstream text;
-  text.precision(4);
-  auto line = [&](const std::string& name, const elastography::Statistics& s) {
-    text << name << "  " << s.n_before_mask << " px -> " << s.n << " after mask, " << s.area_mm2 << " mm2, "
-         << s.mean_kPa << " +- " << s.sd_kPa << " kPa, median " << s.median_kPa << ", " << s.min_kPa << " to "
-         << s.max_kPa << "\n";
-  };
-  text << (m.quantity == StiffnessQuantity::Shear ? "shear modulus" : "Young's modulus") << "\n";
-  for (const elastography::SliceStatistics& s : m.slices) line("slice " + std::to_string(s.slice), s.statistics);
-  line("pooled", m.pooled);
-  text << "mean Young's modulus " << m.youngs_mean_kPa << " kPa at Poisson's ratio " << m.poisson << "\n";
-  for (const std::string& w : warnings) text << "warning: " << w << "\n";
-  context.print(j, text.str());
+  context.print(j, inWords(m, warnings));
   return Ok;
 }
 

@@ -77,7 +77,8 @@ void warn(Measurement& m) {
   tellOtherScales(m);
 }
 
-image::Mask innerRegion(const image::Mask& roi, const MeasureOptions& options) {
+/// The region without its rim and what is excluded; how many voxels either takes goes into m.
+image::Mask innerRegion(const image::Mask& roi, const MeasureOptions& options, Measurement& m) {
   if (!(options.erosion_mm >= 0.0 && std::isfinite(options.erosion_mm)))
     throw BadArgument("an erosion must not be negative");
   image::Mask region = options.erosion_pixels > 0 ? image::erodeInPlane(roi, options.erosion_pixels) : roi;
@@ -86,12 +87,27 @@ image::Mask innerRegion(const image::Mask& roi, const MeasureOptions& options) {
     for (std::size_t v = 0; v < region.values.size(); ++v)
       if (static_cast<double>(depth_mm.values[v]) <= options.erosion_mm) region.values[v] = 0;
   }
+  m.rim = m.drawn - image::count(region);
   if (options.exclude == nullptr) return region;
   if (!options.exclude->grid.sameGeometry(roi.grid))
     throw BadInput("what is to be excluded lies on another grid than the region of interest");
-  for (std::size_t v = 0; v < region.values.size(); ++v)
-    if (options.exclude->values[v] != 0) region.values[v] = 0;
+  for (std::size_t v = 0; v < region.values.size(); ++v) {
+    if (options.exclude->values[v] == 0 || region.values[v] == 0) continue;
+    region.values[v] = 0;
+    ++m.excluded;
+  }
   return region;
+}
+
+/// Of every voxel of the mask that counts; not-a-number where none does.
+double meanOver(const StiffnessMap& map, const image::Mask& mask, double confidenceThreshold) {
+  double sum = 0.0, n = 0.0;
+  for (std::size_t v = 0; v < mask.values.size(); ++v)
+    if (mask.values[v] != 0 && trusted(map, v, confidenceThreshold)) {
+      sum += static_cast<double>(map.values_kPa.values[v]);
+      n += 1.0;
+    }
+  return sum / n;
 }
 
 /// Autocorrelation of the deviations at one in-plane shift.
@@ -255,9 +271,9 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
                    "; it must lie above -1 and at most at 0.5");
   const std::size_t drawn = image::count(roi);
   if (drawn == 0) throw BadInput("the region of interest holds no voxel of the stiffness map");
-  const image::Mask region = innerRegion(roi, options);
-
   Measurement m;
+  m.drawn = drawn;
+  const image::Mask region = innerRegion(roi, options, m);
   m.quantity = map.quantity;
   m.poisson = options.poisson;
   const Counted counted = countVoxels(map, region, options.confidenceThreshold, m);
@@ -268,6 +284,7 @@ Measurement measure(const StiffnessMap& map, const image::Mask& roi, const Measu
   m.uncertainty = meanUncertainty(map.values_kPa, counted.mask);
   m.interval = meanInterval(map.values_kPa, counted.mask);
   m.areaWeightedMean_kPa = areaWeightedMean_kPa(m.slices);
+  m.meanOfAll_kPa = m.rim + m.excluded > 0 ? meanOver(map, roi, options.confidenceThreshold) : m.pooled.mean_kPa;
   const bool shear = map.quantity == StiffnessQuantity::Shear;
   const double mean_kPa = m.pooled.mean_kPa;
   m.shear_mean_kPa = shear ? mean_kPa : toShear(YoungsModulus::fromKPa(mean_kPa), options.poisson).kPa();

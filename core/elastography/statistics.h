@@ -58,6 +58,10 @@ struct Measurement {
   double youngs_mean_kPa = 0.0;         ///< pooled mean as E = 2 (1 + ν) µ
   double shear_mean_kPa = 0.0;          ///< pooled mean as µ
   double poisson = defaults::poisson;   ///< used for the conversion
+  std::size_t drawn = 0;                ///< voxels of the region of interest as it was given
+  std::size_t rim = 0;                  ///< of these left out by the erosion
+  std::size_t excluded = 0;             ///< left out by MeasureOptions::exclude
+  double meanOfAll_kPa = 0.0;           ///< pooled mean without leaving out rim and what is excluded
   std::size_t notFinite = 0;            ///< left out: not finite
   std::size_t notPositive = 0;          ///< left out: ≤ 0
   std::size_t lowConfidence = 0;        ///< left out: finite, > 0, below the threshold

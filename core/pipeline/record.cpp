@@ -180,7 +180,7 @@ void addAnswers(const Scene& scene, const RunResult& r, Json& j) {
   if (r.discretisation) j["discretisation_error"] = discretisationToJson(*r.discretisation);
   if (r.placed) j["pose"] = poseToJson(*r.placed);
   if (r.atlas) j["atlas"] = resultToJson(*r.atlas, scene);
-  if (const std::string advice = adviceOn(scene, r.primary); !advice.empty()) j["advice"] = advice;
+  if (const std::string advice = adviceOn(scene, r); !advice.empty()) j["advice"] = advice;
   if (r.linear) j["kinematics_compared"] = kinematicsToJson(r);
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "base/sha256.h"
 #include "base/version.h"
+#include "pipeline/detail/checklist.h"
 #include "pipeline/detail/method_text.h"
 #include "pipeline/detail/outputs.h"
 #include "pipeline/detail/record.h"
@@ -55,7 +57,7 @@ const char* bodyOf(const Scene& scene) {
 }
 
 const char* wordsOf(Significance s) {
-  return s == Significance::Open     ? " (cannot be told from 5 mm with these cells)"
+  return s == Significance::Open     ? " (cannot be told from 5 mm)"
          : s == Significance::Beyond ? " (5 mm or more: clinically significant)"
                                      : "";
 }
@@ -124,16 +126,31 @@ void listed(Page& page, const std::vector<std::string>& items) {
   if (!items.empty()) page.list(items);
 }
 
+/// The verdict on one answer and what is said against it. who: its stiffness, empty where there is one answer only.
+void judged(Page& page, const std::string& who, const retraction::Result& r) {
+  std::string of = who.empty() ? std::string() : who + " stiffness: ";
+  if (!of.empty()) of.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(of.front())));
+  const auto sentence = [&of](std::string words) {
+    if (!of.empty()) words.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(words.front())));
+    return of + words;
+  };
+  if (!isAnswer(r))
+    page.warning(sentence("This is no answer, and its numbers are not to be used."));
+  else if (r.linearTrusted)
+    page.paragraph(sentence(r.kinematics == retraction::Kinematics::Linear
+                                ? "Strains and rotations are small enough for linear theory."
+                                : "The large-deformation solve converged, and no cell is turned inside out."));
+  else
+    page.warning(sentence("The result is outside the limits of its theory; it is shown with this reservation."));
+  listed(page, r.validity);
+}
+
 void trust(Page& page, const Scene& scene, const RunResult& r) {
   page.heading("Can it be trusted?");
-  if (r.primary.linearTrusted)
-    page.paragraph(r.primary.kinematics == retraction::Kinematics::Linear
-                       ? "Strains and rotations are small enough for linear theory."
-                       : "The large-deformation solve converged, and no cell is turned inside out.");
-  else
-    page.warning("The result is outside the limits of its theory; it is shown with this reservation.");
-  listed(page, r.primary.validity);
-  if (const std::string advice = adviceOn(scene, r.primary); !advice.empty()) page.warning(advice);
+  const std::string own = r.atlas ? ownIn(scene) : std::string();
+  judged(page, own, r.primary);
+  if (r.atlas) judged(page, "textbook", *r.atlas);
+  if (const std::string advice = adviceOn(scene, r); !advice.empty()) page.warning(advice);
   page.table(
       {{"Solver", r.primary.solver.kind + ", relative residual " + number(r.primary.solver.residual, 2)},
        {"Strain, largest / 95 % below", number(r.primary.max_strain, 3) + " / " + number(r.primary.p95_strain, 3)},
@@ -262,6 +279,7 @@ void Writer::report(const Scene& scene, const RunResult& r,
                          : std::string("Deformation under load"));
   results(page, scene, r);
   if (r.uncertainty) detail::howSure(*r.uncertainty, language, page);
+  if (r.stiffness) readersChecklist(*r.stiffness, page);
   trust(page, scene, r);
   kinematics(page, r);
   page.heading("Pictures");

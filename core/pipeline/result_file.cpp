@@ -283,8 +283,8 @@ void one(Archive& a, elastography::SliceStatistics& s) {
 
 void one(Archive& a, elastography::Measurement& m) {
   a(m.quantity, m.pooled, m.uncertainty, m.interval, m.slices, m.areaWeightedMean_kPa, m.youngs_mean_kPa,
-    m.shear_mean_kPa, m.poisson, m.notFinite, m.notPositive, m.lowConfidence, m.noConfidence, m.warnings,
-    m.diagnostics);
+    m.shear_mean_kPa, m.poisson, m.drawn, m.rim, m.excluded, m.meanOfAll_kPa, m.notFinite, m.notPositive,
+    m.lowConfidence, m.noConfidence, m.warnings, m.diagnostics);
 }
 
 void one(Archive& a, retraction::Retractor& r) {

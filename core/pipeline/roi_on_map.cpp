@@ -44,11 +44,20 @@ std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& m
       ++interpolated;
   }
   const int empty = static_cast<int>(roi::emptySlicesBetween(*roi.contours, mriGrid).size());
-  if (interpolated + empty == 0) return std::nullopt;
-  std::string text = "outlines on " + std::to_string(drawn) + " of " + std::to_string(drawn + interpolated + empty) +
-                     " slices; " + std::to_string(interpolated) + " slices between them were interpolated by shape";
+  const auto drafts = std::count_if(roi.contours->polygons.begin(), roi.contours->polygons.end(), [](const auto& p) {
+    return p.state == roi::PolygonState::Draft && p.points_lps_mm.cols() > 0;
+  });
+  if (interpolated + empty + drafts == 0) return std::nullopt;
+  std::string text =
+      "outlines on " + std::to_string(drawn) + " of " + std::to_string(drawn + interpolated + empty) + " slices";
+  if (interpolated + empty > 0)
+    text += "; " + std::to_string(interpolated) + " slices between them were interpolated by shape";
   if (empty > 0)
     text += "; " + std::to_string(empty) + " slices stay empty, because the outlines next to them do not overlap";
+  if (drafts > 0)
+    text += drafts == 1
+                ? "; one outline is a draft and does not count: accept or delete it"
+                : "; " + std::to_string(drafts) + " outlines are drafts and do not count: accept or delete them";
   return text;
 }
 

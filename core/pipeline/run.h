@@ -59,8 +59,8 @@ struct RunResult {
   std::string json;                             ///< the run record, as in contract.md
 };
 
-/// On which side of the clinical line the difference at the retractor lies; open where the estimated error of the cells
-/// reaches over that line.
+/// On which side of the clinical line the difference at the retractor lies; open where the estimated error of the
+/// cells, or the 95 % interval of what is uncertain, reaches over that line.
 enum class Significance { Below, Beyond, Open };
 /// result: with a difference.
 Significance significanceOf(const RunResult& result);

@@ -136,7 +136,7 @@ void checkOutlines(LoadedRoi& roi, const image::Grid& mriGrid);
 
 /// Fills empty slices between outlined ones by shape, where the region came as polygons (roi/interpolate.h). Returns
 /// what to tell the user, empty where every slice between the first and the last outlined one holds an outline that was
-/// drawn.
+/// drawn, and none is a draft.
 std::optional<std::string> completeOutlines(LoadedRoi& roi, const image::Grid& mriGrid);
 
 /// The region of interest on the grid of the elastogram. mriGrid: of the image that polygons were drawn on, where

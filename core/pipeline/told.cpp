@@ -217,8 +217,27 @@ void withhold(RunResult& r) {
   }
 }
 
+namespace {
+
+/// Whether the estimated error of the cells reaches over the clinical line.
+bool cellsReachTheLine(const RunResult& r) {
+  if (!r.discretisation || !r.discretisation->difference) return false;
+  const std::optional<double> error_mm = r.discretisation->difference->at_retractor_mm;
+  return error_mm && std::abs(r.difference->at_retractor_mm - defaults::clinicallySignificant.mm()) <= *error_mm;
+}
+
+/// Whether the 95 % interval of what is uncertain about the patient holds the clinical line.
+bool intervalHoldsTheLine(const RunResult& r) {
+  if (!r.uncertainty || !r.uncertainty->known || !r.uncertainty->spread.headline) return false;
+  const uncertainty::Interval& interval = r.uncertainty->spread.headline->at_retractor_mm;
+  const double line_mm = defaults::clinicallySignificant.mm();
+  return interval.low <= line_mm && line_mm <= interval.high;
+}
+
+}  // namespace
+
 void tellOfSignificance(RunResult& r) {
-  if (significanceOf(r) != Significance::Open) return;
+  if (significanceOf(r) != Significance::Open || !cellsReachTheLine(r)) return;  // an interval speaks for itself
   r.diagnostics.add(DiagnosticCode::SignificanceOpen, {{"at_retractor_mm", r.difference->at_retractor_mm},
                                                        {"line_mm", defaults::clinicallySignificant.mm()},
                                                        {"error_mm", *r.discretisation->difference->at_retractor_mm}});
@@ -247,6 +266,11 @@ void tellOfDiscretisation(RunResult& r) {
                                                           {"where", std::string(worst.where)}});
 }
 
+std::string adviceOn(const Scene& scene, const RunResult& r) {
+  const std::string own = adviceOn(scene, r.primary);
+  return own.empty() && r.atlas ? adviceOn(scene, *r.atlas) : own;
+}
+
 std::string adviceOn(const Scene& scene, const retraction::Result& r) {
   if (r.kinematics != retraction::Kinematics::Linear || r.linearTrusted || !r.solver.converged()) return {};
   const bool offered = !retraction::largeDeformationRefusal(scene.setup);
@@ -271,10 +295,7 @@ std::string adviceOn(const Scene& scene, const retraction::Result& r) {
 }  // namespace detail
 
 Significance significanceOf(const RunResult& r) {
-  if (r.discretisation && r.discretisation->difference)
-    if (const std::optional<double> error_mm = r.discretisation->difference->at_retractor_mm;
-        error_mm && std::abs(r.difference->at_retractor_mm - defaults::clinicallySignificant.mm()) <= *error_mm)
-      return Significance::Open;
+  if (detail::cellsReachTheLine(r) || detail::intervalHoldsTheLine(r)) return Significance::Open;
   return r.difference->clinically_significant ? Significance::Beyond : Significance::Below;
 }
 

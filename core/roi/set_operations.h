@@ -26,6 +26,7 @@ struct FlatRegion {
   std::vector<bool> flips;
 };
 
+/// What is made of two regions.
 enum class SetOperation { Union, Difference, Intersection };
 
 /// first with second, as sets of points; empty rings_mm for the empty set. The result has flips where it is so thin

@@ -295,6 +295,42 @@
             <translation>
 95 %: Mittel %1, größter %2; %3 bis %4 % mit 5 mm oder mehr</translation>
         </message>
+        <message>
+            <source>%1 to %2 by what is uncertain of the patient (95 %)</source>
+            <translation>%1 bis %2 durch das, was am Patienten unsicher ist (95 %)</translation>
+        </message>
+        <message>
+            <source>Run again</source>
+            <translation>Neu rechnen</translation>
+        </message>
+        <message>
+            <source>With what is outlined and set now</source>
+            <translation>Mit dem, was jetzt umrissen und eingestellt ist</translation>
+        </message>
+        <message>
+            <source>Cannot be told from the 5 mm that matter clinically.</source>
+            <translation>Von den klinisch bedeutsamen 5 mm nicht zu unterscheiden.</translation>
+        </message>
+        <message>
+            <source>5 mm or more: it matters clinically.</source>
+            <translation>5 mm oder mehr: klinisch bedeutsam.</translation>
+        </message>
+        <message>
+            <source>Below the 5 mm that matter clinically.</source>
+            <translation>Unter den klinisch bedeutsamen 5 mm.</translation>
+        </message>
+        <message>
+            <source>No difference is given: one of the two runs is no answer.</source>
+            <translation>Kein Unterschied wird angegeben: Eine der beiden Rechnungen ist keine Antwort.</translation>
+        </message>
+        <message>
+            <source>Nothing was compared.</source>
+            <translation>Es wurde nichts verglichen.</translation>
+        </message>
+        <message>
+            <source>mean %1, 95th percentile %2, largest %3</source>
+            <translation>Mittel %1, 95. Perzentil %2, größter %3</translation>
+        </message>
     </context>
     <context>
         <name>glisson::panels::ImageLayers</name>
@@ -1976,6 +2012,98 @@
             <source>Click points on the border: a smooth closed curve runs through them.</source>
             <translation>Punkte auf der Grenze klicken: eine glatte geschlossene Kurve läuft durch sie.</translation>
         </message>
+        <message>
+            <source>proposed</source>
+            <translation>vorgeschlagen</translation>
+        </message>
+        <message>
+            <source>copied</source>
+            <translation>kopiert</translation>
+        </message>
+        <message>
+            <source>%1, accepted</source>
+            <translation>%1, angenommen</translation>
+        </message>
+        <message>
+            <source>%1 drawn</source>
+            <translation>%1 gezeichnet</translation>
+        </message>
+        <message>
+            <source>%1 interpolated</source>
+            <translation>%1 interpoliert</translation>
+        </message>
+        <message>
+            <source>%1 proposed</source>
+            <translation>%1 vorgeschlagen</translation>
+        </message>
+        <message>
+            <source>%1 copied</source>
+            <translation>%1 kopiert</translation>
+        </message>
+        <message>
+            <source>%1 empty between them</source>
+            <translation>%1 dazwischen leer</translation>
+        </message>
+        <message>
+            <source>Of those that nobody drew %1 were accepted; all count.</source>
+            <translation>Von denen, die niemand gezeichnet hat, sind %1 angenommen; alle zählen.</translation>
+        </message>
+        <message>
+            <source>Drafts do not count (slices %1).</source>
+            <translation>Entwürfe zählen nicht (Schichten %1).</translation>
+        </message>
+        <message>
+            <source>Repeatability coefficient of the QIBA profile for liver MR elastography, 2022: a change by 19 % of the mean or more is a true one with 95 % confidence.</source>
+            <translation>Wiederholbarkeitskoeffizient des QIBA-Profils für MR-Elastographie der Leber, 2022: Eine Änderung um 19 % des Mittels oder mehr ist mit 95 % Sicherheit eine wirkliche.</translation>
+        </message>
+        <message>
+            <source>A change is real from %1 kPa (19 %).</source>
+            <translation>Eine Änderung ist ab %1 kPa wirklich (19 %).</translation>
+        </message>
+        <message>
+            <source>%1 % of the outline measured.</source>
+            <translation>%1 % des Umrisses gemessen.</translation>
+        </message>
+        <message>
+            <source>Too small for an inner region: the edge counts.</source>
+            <translation>Zu klein für eine innere Region: Der Rand zählt mit.</translation>
+        </message>
+        <message>
+            <source>The region is small (%1 of at least %2 mm²): a few waves decide.</source>
+            <translation>Die Region ist klein (%1 von mindestens %2 mm²): Wenige Wellen entscheiden.</translation>
+        </message>
+        <message>
+            <source>Technical failure on %1 slices: no reliable wave.</source>
+            <translation>Technisches Versagen auf %1 Schichten: keine verlässliche Welle.</translation>
+        </message>
+        <message>
+            <source>This slice is a technical failure: no reliable wave.</source>
+            <translation>Diese Schicht ist ein technisches Versagen: keine verlässliche Welle.</translation>
+        </message>
+        <message>
+            <source>Of this slice less than a tenth has a reliable wave.</source>
+            <translation>Von dieser Schicht hat weniger als ein Zehntel eine verlässliche Welle.</translation>
+        </message>
+        <message>
+            <source>Of this slice less than %1 mm² count.</source>
+            <translation>Von dieser Schicht zählen weniger als %1 mm².</translation>
+        </message>
+        <message>
+            <source>Acquired by %1.</source>
+            <translation>Aufgenommen mit %1.</translation>
+        </message>
+        <message>
+            <source>Left out: edge %1 px, vessels %2 px; that changes the mean by %3 % (%4 kPa with them).</source>
+            <translation>Weggelassen: Rand %1 px, Gefäße %2 px; das ändert das Mittel um %3 % (%4 kPa mit ihnen).</translation>
+        </message>
+        <message>
+            <source>Without vessels</source>
+            <translation>Ohne Gefäße</translation>
+        </message>
+        <message>
+            <source>Vessels found in the MRI are not measured. They are looked for once the outlines rest.</source>
+            <translation>Im MRT gefundene Gefäße werden nicht gemessen. Sie werden gesucht, sobald die Umrisse ruhen.</translation>
+        </message>
     </context>
     <context>
         <name>glisson::panels::PlacementEditor</name>
@@ -2176,6 +2304,14 @@ Größte Dehnung %7 %, Drehung %8°</translation>
             <source>The large deformation converged.</source>
             <translation>Die große Verformung ist konvergiert.</translation>
         </message>
+        <message>
+            <source>How far to trust it</source>
+            <translation>Wie weit dem zu trauen ist</translation>
+        </message>
+        <message>
+            <source>Drafts do not count (slices %1): accept or delete them on Segment first.</source>
+            <translation>Entwürfe zählen nicht (Schichten %1): erst auf Segmentieren annehmen oder löschen.</translation>
+        </message>
     </context>
     <context>
         <name>glisson::panels::SegmentPage</name>
@@ -2326,6 +2462,10 @@ Name des Bereichs:</translation>
         <message>
             <source>The stiffness scale is 0–8 or 0–20 kPa, so that a colour always means the same: %1.</source>
             <translation>Die Steifigkeitsskala geht bis 8 oder bis 20 kPa, damit eine Farbe immer dasselbe bedeutet: %1.</translation>
+        </message>
+        <message>
+            <source>Nothing on this slice waits to be accepted.</source>
+            <translation>Auf dieser Schicht wartet nichts darauf, angenommen zu werden.</translation>
         </message>
     </context>
     <context>
@@ -2715,6 +2855,18 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>There is no DICOM series, volume or case here; choose a DICOM folder, DICOMDIR, ZIP archive or case.json.</source>
             <translation>Hier liegt weder eine DICOM-Serie noch ein Volumen noch ein Fall; einen DICOM-Ordner, DICOMDIR, ein ZIP-Archiv oder case.json wählen.</translation>
+        </message>
+        <message>
+            <source>No answer: see How far to trust it</source>
+            <translation>Keine Antwort: siehe Wie weit dem zu trauen ist</translation>
+        </message>
+        <message>
+            <source>Drafts do not count (slices %1): accept or delete them before the numbers are used.</source>
+            <translation>Entwürfe zählen nicht (Schichten %1): annehmen oder löschen, bevor die Zahlen verwendet werden.</translation>
+        </message>
+        <message>
+            <source>Proposed on every slice. It counts already: correct and accept it.</source>
+            <translation>Auf jeder Schicht vorgeschlagen. Es zählt schon: korrigieren und annehmen.</translation>
         </message>
     </context>
     <context>
@@ -5662,6 +5814,230 @@ Volumen %6 mL gegen %7 mL, Unterschied %8 mL (%9 %)</translation>
         <message>
             <source>Run kept in the case</source>
             <translation>Im Fall behaltener Lauf</translation>
+        </message>
+    </context>
+    <context>
+        <name>glisson::panels::TrustPanel</name>
+        <message>
+            <source>Run in large deformation</source>
+            <translation>In großer Verformung rechnen</translation>
+        </message>
+        <message>
+            <source>Halve the cells and run</source>
+            <translation>Zellen halbieren und rechnen</translation>
+        </message>
+        <message>
+            <source>Ask for %1 N and run</source>
+            <translation>%1 N verlangen und rechnen</translation>
+        </message>
+        <message>
+            <source>Find a place and run</source>
+            <translation>Stelle suchen und rechnen</translation>
+        </message>
+        <message>
+            <source>Kinematics: hyperelastic, on voxel hexahedra at rest. It takes some minutes.</source>
+            <translation>Kinematik: hyperelastisch, auf Voxel-Hexaedern in Ruhe. Das dauert einige Minuten.</translation>
+        </message>
+        <message>
+            <source>Tetrahedra of %1 mm: about eight times the run time</source>
+            <translation>Tetraeder von %1 mm: etwa achtfache Rechenzeit</translation>
+        </message>
+        <message>
+            <source>Cells of %1 mm: about eight times the run time</source>
+            <translation>Zellen von %1 mm: etwa achtfache Rechenzeit</translation>
+        </message>
+        <message>
+            <source>Nine tenths of what both livers bore at this place</source>
+            <translation>Neun Zehntel dessen, was beide Lebern an dieser Stelle getragen haben</translation>
+        </message>
+        <message>
+            <source>In place of where the bar was laid by hand</source>
+            <translation>Anstelle des von Hand gelegten Stabs</translation>
+        </message>
+        <message>
+            <source>Results of earlier outlines and other parameters, not of those shown now</source>
+            <translation>Ergebnisse früherer Umrisse und anderer Parameter, nicht der jetzt gezeigten</translation>
+        </message>
+        <message>
+            <source>Results of earlier outlines, not of those shown now</source>
+            <translation>Ergebnisse früherer Umrisse, nicht der jetzt gezeigten</translation>
+        </message>
+        <message>
+            <source>Results of other parameters, not of those set now</source>
+            <translation>Ergebnisse anderer Parameter, nicht der jetzt eingestellten</translation>
+        </message>
+        <message>
+            <source>Results of an earlier state of this case, not of what is shown now</source>
+            <translation>Ergebnisse eines früheren Stands dieses Falls, nicht des jetzt gezeigten</translation>
+        </message>
+        <message>
+            <source>How much the size of the cells matters is not known: %1</source>
+            <translation>Wie viel die Größe der Zellen ausmacht, ist nicht bekannt: %1</translation>
+        </message>
+        <message>
+            <source>The cells of %1 mm may shift a place by %2 mm on average, and by no more than %3 mm in 95 % of the liver (estimated from cells twice as large).</source>
+            <translation>Die Zellen von %1 mm können eine Stelle im Mittel um %2 mm verschieben, in 95 % der Leber um höchstens %3 mm (geschätzt aus doppelt so großen Zellen).</translation>
+        </message>
+        <message>
+            <source>Most of it is common to both answers: the difference shown errs by %1 mm on average.</source>
+            <translation>Das meiste davon ist beiden Antworten gemeinsam: Der gezeigte Unterschied irrt im Mittel um %1 mm.</translation>
+        </message>
+        <message>
+            <source>That is more than half of the mean difference: use smaller cells before concluding.</source>
+            <translation>Das ist mehr als die Hälfte des mittleren Unterschieds: Vor einem Schluss kleinere Zellen nehmen.</translation>
+        </message>
+        <message>
+            <source>Not run yet.</source>
+            <translation>Noch nicht gerechnet.</translation>
+        </message>
+        <message>
+            <source>No warning: strains and rotations of both answers are within linear theory.</source>
+            <translation>Keine Warnung: Dehnungen und Drehungen beider Antworten liegen innerhalb der linearen Theorie.</translation>
+        </message>
+        <message>
+            <source>No warning: the large deformation of both answers converged.</source>
+            <translation>Keine Warnung: Die große Verformung beider Antworten ist konvergiert.</translation>
+        </message>
+    </context>
+    <context>
+        <name>trust</name>
+        <message>
+            <source>measured and atlas</source>
+            <comment>of a stiffness, inside a sentence</comment>
+            <translation>gemessen und Atlas</translation>
+        </message>
+        <message>
+            <source>measured</source>
+            <comment>of a stiffness, inside a sentence</comment>
+            <translation>gemessen</translation>
+        </message>
+        <message>
+            <source>atlas</source>
+            <comment>of a stiffness, inside a sentence</comment>
+            <translation>Atlas</translation>
+        </message>
+        <message>
+            <source>MRE and atlas: %1</source>
+            <translation>MRE und Atlas: %1</translation>
+        </message>
+        <message>
+            <source>MRE: %1</source>
+            <translation>MRE: %1</translation>
+        </message>
+        <message>
+            <source>Atlas: %1</source>
+            <translation>Atlas: %1</translation>
+        </message>
+        <message>
+            <source>slips</source>
+            <translation>rutscht ab</translation>
+        </message>
+        <message>
+            <source>folds</source>
+            <translation>faltet sich</translation>
+        </message>
+        <message>
+            <source>cuts</source>
+            <translation>schneidet ein</translation>
+        </message>
+        <message>
+            <source>loads not borne</source>
+            <translation>Lasten nicht getragen</translation>
+        </message>
+        <message>
+            <source>not converged</source>
+            <translation>nicht konvergiert</translation>
+        </message>
+        <message>
+            <source>it moves the body by more than its size</source>
+            <translation>verschiebt den Körper um mehr als seine Größe</translation>
+        </message>
+        <message>
+            <source>a cell is turned inside out</source>
+            <translation>eine Zelle ist umgestülpt</translation>
+        </message>
+    </context>
+    <context>
+        <name>advice</name>
+        <message>
+            <source>Check stiffness, supports and force on Model and Retract: one of them has another unit.</source>
+            <translation>Steifigkeit, Lager und Kraft auf Modell und Retraktion prüfen: Eine davon hat eine andere Einheit.</translation>
+        </message>
+        <message>
+            <source>Do not use what lies there. Smaller cells, or a smaller force, keep cells whole.</source>
+            <translation>Nicht verwenden, was dort liegt. Kleinere Zellen oder eine kleinere Kraft halten Zellen heil.</translation>
+        </message>
+        <message>
+            <source>Run it in large deformation (Model, Kinematics: hyperelastic).</source>
+            <translation>In großer Verformung rechnen (Modell, Kinematik: hyperelastisch).</translation>
+        </message>
+        <message>
+            <source>Ask for less, or lay the bar where the liver is thicker and level across it. What is borne is itself a result.</source>
+            <translation>Weniger verlangen oder den Stab dorthin legen, wo die Leber dicker ist und quer zum Stab eben. Was getragen wird, ist selbst ein Ergebnis.</translation>
+        </message>
+        <message>
+            <source>Ask for less, or take a thicker bar or other cells.</source>
+            <translation>Weniger verlangen oder einen dickeren Stab oder andere Zellen nehmen.</translation>
+        </message>
+        <message>
+            <source>Ask for less, or take a thicker bar or smaller cells.</source>
+            <translation>Weniger verlangen oder einen dickeren Stab oder kleinere Zellen nehmen.</translation>
+        </message>
+        <message>
+            <source>Only a held travel stays here: under a force the bar would move on.</source>
+            <translation>Nur ein gehaltener Weg bleibt hier stehen: Unter einer Kraft ginge der Stab weiter.</translation>
+        </message>
+        <message>
+            <source>Read this as the second of two equilibria, or lay the bar where the liver bears more.</source>
+            <translation>Als zweites von zwei Gleichgewichten lesen oder den Stab dorthin legen, wo die Leber mehr trägt.</translation>
+        </message>
+        <message>
+            <source>Ask for a smaller force, or hold the liver at more places.</source>
+            <translation>Eine kleinere Kraft verlangen oder die Leber an mehr Stellen halten.</translation>
+        </message>
+        <message>
+            <source>Do not quote what lies within a cell of that place; smaller cells show whether it stays.</source>
+            <translation>Nicht angeben, was bis zu einer Zelle neben dieser Stelle liegt; kleinere Zellen zeigen, ob es bleibt.</translation>
+        </message>
+        <message>
+            <source>Do not quote pressures or places beside the bar. A smaller force, a thicker bar or smaller cells help.</source>
+            <translation>Keine Drücke und Stellen neben dem Stab angeben. Eine kleinere Kraft, ein dickerer Stab oder kleinere Zellen helfen.</translation>
+        </message>
+        <message>
+            <source>Use none of its numbers. Ask for less, or take other cells.</source>
+            <translation>Keine seiner Zahlen verwenden. Weniger verlangen oder andere Zellen nehmen.</translation>
+        </message>
+        <message>
+            <source>Take more sites or another kernel, and compare with voxel hexahedra.</source>
+            <translation>Mehr Stützstellen oder einen anderen Kern nehmen und mit Voxel-Hexaedern vergleichen.</translation>
+        </message>
+        <message>
+            <source>Ask for less, take a shorter or thicker bar, or lay it by hand.</source>
+            <translation>Weniger verlangen, einen kürzeren oder dickeren Stab nehmen oder ihn von Hand legen.</translation>
+        </message>
+        <message>
+            <source>Smaller cells make this error smaller; until then quote it beside the numbers.</source>
+            <translation>Kleinere Zellen machen diesen Fehler kleiner; bis dahin neben den Zahlen angeben.</translation>
+        </message>
+        <message>
+            <source>Until then report the difference with its error, and no verdict.</source>
+            <translation>Bis dahin den Unterschied mit seinem Fehler berichten und kein Urteil.</translation>
+        </message>
+        <message>
+            <source>Mend the run that is named; its own reason says how.</source>
+            <translation>Die genannte Rechnung in Ordnung bringen; ihr eigener Grund sagt, wie.</translation>
+        </message>
+        <message>
+            <source>Check the number and its unit on Model and Retract.</source>
+            <translation>Zahl und Einheit auf Modell und Retraktion prüfen.</translation>
+        </message>
+        <message>
+            <source>Give the motion more time, where the liver at rest is wanted.</source>
+            <translation>Der Bewegung mehr Zeit geben, wo die Leber in Ruhe gewünscht ist.</translation>
+        </message>
+        <message>
+            <source>Compare area and pressure between runs with cells of one size only.</source>
+            <translation>Fläche und Druck nur zwischen Rechnungen mit gleich großen Zellen vergleichen.</translation>
         </message>
     </context>
 </TS>

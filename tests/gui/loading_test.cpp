@@ -46,17 +46,6 @@ class Loading : public QObject, private glisson::test::WindowBench {
       std::filesystem::copy(from, folder() / name / from.filename(), std::filesystem::copy_options::recursive);
     return folder() / name;
   }
-  /// Opens and waits, whether or not there is anything to be shown.
-  bool opened(const std::filesystem::path& what) {
-    QSignalSpy loaded(&session(), &Session::loaded);
-    session().openPath(QString::fromStdString(what.string()));
-    return loaded.count() > 0 || loaded.wait(wait_ms);
-  }
-  bool afterLoading(const std::function<void()>& act) {
-    QSignalSpy loaded(&session(), &Session::loaded);
-    act();
-    return loaded.count() > 0 || loaded.wait(wait_ms);
-  }
   int seriesOf(SeriesRole role) {
     const auto& series = session().scan().series;
     for (std::size_t i = 0; i < series.size(); ++i)

@@ -33,20 +33,13 @@ class Opening : public QObject, private glisson::test::WindowBench {
   std::filesystem::path patient_, other_, volumes_;
   glisson::image::Mask liver_;
 
-  bool opened(const QStringList& paths) {
-    QSignalSpy loaded(&session(), &Session::loaded);
-    window().openPaths(paths);
-    return loaded.count() > 0 || loaded.wait(wait_ms);
-  }
-  bool opened(const std::filesystem::path& path) { return opened(QStringList{QString::fromStdString(path.string())}); }
   QString volume(const char* name) const { return QString::fromStdString((volumes_ / name).string()); }
   /// The map's quantity and unit, as a reader answers; the dialog that asks goes.
   bool answered() {
     if (!session().images().question || session().images().question->kind != Question::Kind::Meaning) return false;
     if (auto* dialog = window().findChild<QDialog*>("meaningDialog")) dialog->close();
-    QSignalSpy loaded(&session(), &Session::loaded);
-    session().setMeaning(glisson::StiffnessQuantity::Shear, QStringLiteral("kPa"));
-    return (loaded.count() > 0 || loaded.wait(wait_ms)) && session().images().stiffness;
+    return afterLoading([this] { session().setMeaning(glisson::StiffnessQuantity::Shear, QStringLiteral("kPa")); }) &&
+           session().images().stiffness;
   }
   /// What counts now, mL.
   double shownVolume_mL() {

@@ -361,7 +361,7 @@ class Segment : public QObject, private glisson::test::WindowBench {
     QVERIFY(find<QCheckBox>("innerRegion")->isChecked());
     session().saveCase(path("inner"));
     open(path("journals"));
-    QVERIFY(!find<QCheckBox>("innerRegion")->isChecked());
+    QCOMPARE(find<QSpinBox>("erosionPixels")->value(), 3);
     QVERIFY(openPath(path("inner") + "/case.json"));
     QVERIFY(find<QCheckBox>("innerRegion")->isChecked());
     QCOMPARE(find<QSpinBox>("erosionPixels")->value(), 4);

@@ -9,6 +9,7 @@
 #include <QTest>
 #include <QWheelEvent>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -121,17 +122,23 @@ class WindowBench {
   }
   void click(const char* name) { QTest::mouseClick(find<QWidget>(name), Qt::LeftButton); }
 
+  /// Does what makes the session read, and waits until it has, whether or not there is anything to be shown then.
+  bool afterLoading(const std::function<void()>& act) {
+    QSignalSpy loaded(&session(), &session::Session::loaded);
+    act();
+    return loaded.count() > 0 || loaded.wait(wait_ms);
+  }
+  /// Opens anything that can be opened, several at once too, without being asked about what was open before.
+  bool opened(const QStringList& paths) {
+    return afterLoading([&] { session().openPaths(paths); });
+  }
+  bool opened(const std::filesystem::path& what) { return opened(QStringList{QString::fromStdString(what.string())}); }
+  /// The same where there is an image to be shown.
+  bool openPath(const QString& what) { return opened(QStringList{what}) && session().images().mri; }
   /// Whether the synthetic patient was opened with all its maps.
   bool openSynthetic() {
-    QSignalSpy loaded(&session(), &session::Session::loaded);
-    session().openSynthetic(3, path("patients"));
-    return loaded.wait(wait_ms) && session().images().mri && session().images().stiffness;
-  }
-  /// The same for anything else that can be opened.
-  bool openPath(const QString& what) {
-    QSignalSpy loaded(&session(), &session::Session::loaded);
-    session().openPath(what);
-    return loaded.wait(wait_ms) && session().images().mri;
+    return afterLoading([this] { session().openSynthetic(3, path("patients")); }) && session().images().mri &&
+           session().images().stiffness;
   }
   QPoint pixelOf(const Eigen::Vector3d& p_lps) {
     const Eigen::Vector2d px = mri()->plane().toPixel(p_lps);

@@ -3,7 +3,6 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QScrollArea>
 #include <QSlider>
 #include <QSplitter>
 #include <QStackedWidget>
@@ -16,9 +15,11 @@
 #include "panels/language.h"
 #include "panels/method_chart.h"
 #include "panels/palette_choice.h"
+#include "panels/trust_panel.h"
 #include "pipeline/pictures.h"
 #include "render/maps.h"
 #include "session/session.h"
+#include "session/trust.h"
 #include "views/picture_view.h"
 #include "views/scene_view.h"
 
@@ -104,7 +105,7 @@ ComparePage::ComparePage(session::Session& session, QWidget* parent)
   });
   connect(&session_, &session::Session::runFinished, this, &ComparePage::showResult);
   connect(&session_, &session::Session::loaded, this, &ComparePage::showResult);
-  connect(&session_, &session::Session::statusChanged, this, &ComparePage::showNumbers);
+  connect(&session_, &session::Session::statusChanged, this, &ComparePage::showOutdated);
   showNumbers();
 }
 
@@ -112,6 +113,7 @@ QWidget* ComparePage::makeSide() {
   auto* frame = new SidePanel;
   QVBoxLayout* side = frame->column();
   side->addWidget(labelled(tr("MRE against atlas"), "heading"));
+  side->addWidget(makeOutdated());
   side->addWidget(section(tr("Difference at the retractor")));
   retractor_ = labelled({}, "number");
   retractor_->setObjectName(QStringLiteral("differenceAtRetractor"));
@@ -119,6 +121,13 @@ QWidget* ComparePage::makeSide() {
   retractorError_ = labelled({}, "faint");
   retractorError_->setObjectName(QStringLiteral("differenceAtRetractorError"));
   side->addWidget(retractorError_);
+  verdict_ = labelled({}, "text");
+  verdict_->setObjectName(QStringLiteral("differenceVerdict"));
+  side->addWidget(verdict_);
+  side->addWidget(section(tr("How far to trust it")));
+  trust_ = new TrustPanel(session_, QStringLiteral("validityText"));
+  side->addWidget(trust_);
+  connect(trust_, &TrustPanel::runWanted, this, &ComparePage::runWanted);
   side->addWidget(section(tr("Contact")));
   contact_ = new ContactTable(session_);
   side->addWidget(contact_);
@@ -131,20 +140,7 @@ QWidget* ComparePage::makeSide() {
   vessels_->setObjectName(QStringLiteral("vesselNumbers"));
   side->addWidget(vessels_);
   side->addWidget(makeVesselList());
-  side->addWidget(section(tr("How far to trust it")));
-  validity_ = labelled({}, "faint");
-  validity_->setObjectName(QStringLiteral("validityText"));
-  auto* room = new QScrollArea;  // what is to be said of a doubtful run may be longer than the window is high
-  room->setFrameShape(QFrame::NoFrame);
-  room->setWidgetResizable(true);
-  room->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  auto* words = new QWidget;
-  auto* wordColumn = new QVBoxLayout(words);
-  wordColumn->setContentsMargins(0, 0, 0, 0);
-  wordColumn->addWidget(validity_);
-  wordColumn->addStretch();
-  room->setWidget(words);
-  side->addWidget(room, 1);
+  side->addStretch();
   side->addWidget(section(tr("Display")));
   side->addWidget(makeDisplay());
   export_ = button("exportButton", tr("Export pictures and report…"), {},
@@ -209,6 +205,11 @@ QWidget* ComparePage::makeDisplay() {
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     box->setMinimumContentsLength(10);
   }
+  linkDisplay();
+  return held;
+}
+
+void ComparePage::linkDisplay() {
   connect(arrows_, &QCheckBox::toggled, this, [this](bool on) {
     scene_->setArrows(on);
     drawSlice();
@@ -236,7 +237,6 @@ QWidget* ComparePage::makeDisplay() {
   });
   connect(view_, &QComboBox::activated, this,
           [this] { scene_->setView(static_cast<render::View3D>(view_->currentData().toInt())); });
-  return held;
 }
 
 render::Palette ComparePage::palette_() const {
@@ -251,8 +251,8 @@ void ComparePage::showResult() {
   showVessels();
   drawCharts();
   showWhatThereIs();
+  overlay_->clear();  // never the picture of the run before beside the numbers of this one
   if (!picture) {
-    overlay_->clear();
     overlay_->setHint(tr("Run the retraction to compare MRE with the atlas."));
     sliceText_->clear();
     showNumbers();
@@ -345,23 +345,26 @@ void ComparePage::drawSlice() {
 
 QString ComparePage::verdictOf(pipeline::Significance significance) {
   switch (significance) {
-    case pipeline::Significance::Open:
-      return tr("At the retractor it cannot be told from the 5 mm that matter clinically: use smaller cells.");
-    case pipeline::Significance::Beyond: return tr("At the retractor not below the 5 mm that matter clinically.");
+    case pipeline::Significance::Open: return tr("Cannot be told from the 5\u00a0mm that matter clinically.");
+    case pipeline::Significance::Beyond: return tr("5\u00a0mm or more: it matters clinically.");
     case pipeline::Significance::Below: break;
   }
-  return tr("At the retractor below the 5 mm that matter clinically.");
+  return tr("Below the 5\u00a0mm that matter clinically.");
 }
 
 void ComparePage::showNumbers() {
   const auto result = session_.result();
   contact_->show_();
+  trust_->show_();
+  showOutdated();
   if (!result || !result->difference) {
     retractor_->setText(QStringLiteral("–"));
     retractorError_->clear();
-    numbers_->setText(result ? tr("No difference is given: see Contact.") : tr("Not run yet."));
+    verdict_->setText(!result                        ? QString()
+                      : session::isNoAnswer(*result) ? tr("No difference is given: one of the two runs is no answer.")
+                                                     : tr("Nothing was compared."));
+    numbers_->setText(result ? QStringLiteral("–") : tr("Not run yet."));
     vessels_->setText(QStringLiteral("–"));
-    validity_->setText(result ? trust() : QStringLiteral("–"));
     return;
   }
   const comparison::Difference& d = *result->difference;
@@ -371,9 +374,9 @@ void ComparePage::showNumbers() {
   if (const QString sure = interval(); !sure.isEmpty()) beside << sure;
   if (e && e->difference && e->difference->at_retractor_mm)
     beside << tr("± %1 by the size of the cells").arg(mm(*e->difference->at_retractor_mm));
-  retractorError_->setText(beside.join(QStringLiteral("\n")));
-  numbers_->setText(tr("mean %1, 95th percentile %2, largest %3\n%4")
-                        .arg(mm(d.mean_mm), mm(d.p95_mm), mm(d.max_mm), verdictOf(pipeline::significanceOf(*result))));
+  retractorError_->setText(beside.join(QLatin1Char('\n')));
+  verdict_->setText(verdictOf(pipeline::significanceOf(*result)));
+  numbers_->setText(tr("mean %1, 95th percentile %2, largest %3").arg(mm(d.mean_mm), mm(d.p95_mm), mm(d.max_mm)));
   vessels_->setText(d.vessel_mm.empty()
                         ? tr("No vessel landmarks were found.")
                         : tr("%1 landmarks: mean %2, 95th percentile %3, largest %4; %5 of them at 5\u00a0mm or more")
@@ -381,7 +384,6 @@ void ComparePage::showNumbers() {
                                   .arg(mm(d.vesselMean_mm), mm(d.vesselP95_mm), mm(d.vesselMax_mm))
                                   .arg(std::llround(d.vesselFractionBeyond * static_cast<double>(d.vessel_mm.size()))) +
                               ofVessels());
-  validity_->setText(trust());
 }
 
 }  // namespace glisson::panels

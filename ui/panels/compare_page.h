@@ -29,6 +29,7 @@ class SceneView;
 namespace glisson::panels {
 
 class ContactTable;
+class TrustPanel;
 
 /// Compare: where MRE and atlas place the same tissue, slice by slice and in 3-D, with the numbers and how far to trust
 /// them.
@@ -47,6 +48,7 @@ class ComparePage : public QWidget {
   void overlayShown(int slice);                     ///< a slice overlay was drawn and is on screen
   void placeChosen(const Eigen::Vector3d& p_lps);   ///< in the list or in 3-D: at rest
   void exported(int files, const QString& reason);  ///< reason: empty where it went well
+  void runWanted();
 
  private:
   QWidget* makeSide();
@@ -60,12 +62,14 @@ class ComparePage : public QWidget {
   void drawCharts();
   void showWhatThereIs();
   QWidget* makeDisplay();
+  void linkDisplay();
+  QWidget* makeOutdated();
   void askWhereTo();
   void askForVideo();
   QWidget* makeVesselList();
-  QString trust() const;
   QString interval() const;
   QString ofVessels() const;
+  void showOutdated();
   static QString verdictOf(pipeline::Significance significance);
   render::Palette palette_() const;
   session::Session& session_;
@@ -85,7 +89,11 @@ class ComparePage : public QWidget {
   QCheckBox *arrows_, *magnify_;
   QPushButton *export_, *video_ = nullptr;
   QSlider* slice_;
-  QLabel *sliceText_, *retractor_, *retractorError_, *numbers_, *vessels_, *validity_;
+  QLabel *sliceText_, *retractor_, *retractorError_, *verdict_, *numbers_, *vessels_;
+  TrustPanel* trust_;
+  QWidget* outdated_;  ///< says that the results are not of what is set now, and offers to run again
+  QLabel* outdatedText_;
+  QPushButton* again_;
   QComboBox *colours_, *view_, *what_, *chart_, *shown_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Compare: vessels beyond 5 mm, the box plot, what is said of trust, and the export.
+// Compare: vessels beyond 5 mm, the box plot, what is said of results that are outdated, and the export.
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFileDialog>
@@ -11,10 +11,11 @@
 #include <algorithm>
 
 #include "panels/compare_page.h"
+#include "panels/contact_table.h"
 #include "panels/form.h"
 #include "panels/language.h"
+#include "panels/trust_panel.h"
 #include "pipeline/pictures.h"
-#include "session/said.h"
 #include "session/session.h"
 #include "uncertainty/surgeon.h"
 #include "views/picture_view.h"
@@ -153,48 +154,44 @@ QString ComparePage::interval() const {
 QString ComparePage::ofVessels() const {
   const uncertainty::Headline* h = headlineOf(*session_.result());
   if (h == nullptr || !h->vessels) return {};
-  return tr("\n95 %: mean %1, largest %2; %3 to %4 % at 5\u00a0mm or more")
-      .arg(inWords(h->vessels->mean_mm), inWords(h->vessels->max_mm))
-      .arg(100 * h->vessels->beyond.low, 0, 'f', 0)
-      .arg(100 * h->vessels->beyond.high, 0, 'f', 0);
+  QString words = tr("\n95 %: mean %1, largest %2; %3 to %4 % at 5\u00a0mm or more")
+                      .arg(inWords(h->vessels->mean_mm), inWords(h->vessels->max_mm))
+                      .arg(100 * h->vessels->beyond.low, 0, 'f', 0)
+                      .arg(100 * h->vessels->beyond.high, 0, 'f', 0);
+  const auto& u = *session_.result()->uncertainty;
+  if (const std::string told = uncertainty::forSurgeon(u.tip, u.spread, spoken()); !told.empty())
+    words += QLatin1Char('\n') + QString::fromStdString(told) + QLatin1Char('.');
+  return words;
 }
 
-QString ComparePage::trust() const {
-  const auto result = session_.result();
-  QStringList words;
-  if (session_.resultIsStale()) words << tr("Something has changed since this run: run again.");
-  if (const auto& u = result->uncertainty; u && u->known)
-    if (const std::string told = uncertainty::forSurgeon(u->tip, u->spread, spoken()); !told.empty())
-      words << QString::fromStdString(told) + QLatin1Char('.');
-  for (const QString& w : session::said(result->primary.validity, result->primary.doubts)) words << sentence(w);
-  if (words.isEmpty())
-    words << (result->primary.kinematics == retraction::Kinematics::Linear
-                  ? tr("No warning: strains and rotations are within linear theory.")
-                  : tr("No warning: the large deformation converged."));
-  if (result->discretisation) {
-    const retraction::DiscretisationError& e = *result->discretisation;
-    if (e.known) {
-      words << tr("The cells of %1 mm may shift a place by %2 mm on average, and by no more than %3 mm in 95 % of the "
-                  "liver (estimated from cells twice as large).")
-                   .arg(e.cell_mm, 0, 'f', 1)
-                   .arg(e.mean_mm, 0, 'f', 2)
-                   .arg(e.p95_mm, 0, 'f', 2);
-      if (e.difference && result->difference && result->difference->mean_mm > 0.0) {
-        words << tr("What both answers share cancels: the difference shown errs by %1 mm on average.")
-                     .arg(e.difference->mean_mm, 0, 'f', 2);
-        if (e.difference->mean_mm > 0.5 * result->difference->mean_mm)
-          words << tr("That is more than half of the mean difference: use smaller cells before concluding.");
-      }
-    } else {
-      QString why = QString::fromStdString(e.note);
-      if (const QString said = QStringLiteral("discretisation error unknown: "); why.startsWith(said))
-        why.remove(0, said.size());
-      words << tr("How much the size of the cells matters is not known: %1").arg(withStop(why));
-    }
-  }
-  for (const QString& w : session::said(result->warnings, result->diagnostics)) words << sentence(w);
-  words.removeDuplicates();
-  return words.join(QStringLiteral("\n"));
+QWidget* ComparePage::makeOutdated() {
+  auto* card = new QFrame;
+  card->setObjectName(QStringLiteral("outdatedCard"));
+  card->setProperty("role", "card");
+  auto* column = new QVBoxLayout(card);
+  column->setContentsMargins(10, 8, 10, 8);
+  outdatedText_ = labelled({}, "caution");
+  outdatedText_->setObjectName(QStringLiteral("outdatedText"));
+  column->addWidget(outdatedText_);
+  again_ = button("runAgainButton", tr("Run again"), QStringLiteral("run"), tr("With what is outlined and set now"));
+  column->addWidget(again_);
+  connect(again_, &QPushButton::clicked, this, &ComparePage::runWanted);
+  outdated_ = card;
+  return card;
+}
+
+// Numbers of a run that is not of what is set now are greyed, its pictures as well.
+void ComparePage::showOutdated() {
+  const QString words = TrustPanel::outdated(session_);
+  outdated_->setVisible(!words.isEmpty());
+  outdatedText_->setText(words.isEmpty() ? words : words + QLatin1Char('.'));
+  again_->setEnabled(!session_.busy());
+  for (QWidget* shown :
+       {static_cast<QWidget*>(retractor_), static_cast<QWidget*>(retractorError_), static_cast<QWidget*>(verdict_),
+        static_cast<QWidget*>(contact_), static_cast<QWidget*>(numbers_), static_cast<QWidget*>(vessels_)})
+    shown->setEnabled(words.isEmpty());
+  for (views::PictureView* view : {overlay_, boxes_, forces_}) view->setOutdated(words);
+  scene_->setOutdated(words);
 }
 
 void ComparePage::askWhereTo() {

@@ -85,6 +85,7 @@ MainWindow::MainWindow(QWidget* parent)
   makeToolsMenu();
   makeStatusLine();
   connectSession();
+  connect(compare_, &ComparePage::runWanted, this, &MainWindow::run);
   refreshIcons();
   showStep(Step::Load);
   updateStatus();

@@ -24,29 +24,6 @@ namespace {
 
 const QString moreSetting = QStringLiteral("segment/moreNumbers");
 
-QString kPa(double value) {
-  return std::isfinite(value) ? QString::number(value, 'f', 2) : QStringLiteral("–");
-}
-
-/// The MRI slice that the elastogram asks nearest to this one (elastography/roi_mapping.h); empty where it is this one,
-/// or where that holds no outline: then the nearest that does may count.
-std::optional<int> countsInstead(const session::Session& session, int slice) {
-  const session::OpenImages& images = session.images();
-  if (slice < 0 || !images.mri || !images.stiffness) return std::nullopt;
-  const image::Grid& mri = images.mri->grid;
-  const image::Grid& mre = images.stiffness->values_kPa.grid;
-  const Eigen::Vector3d here = mri.indexToLps({0.5 * mri.size.x(), 0.5 * mri.size.y(), 1.0 * slice});
-  Eigen::Vector3d there = mre.lpsToIndex(here);
-  there.z() = std::round(there.z());
-  if (there.z() < 0.0 || there.z() >= mre.size.z()) return std::nullopt;
-  const auto counting = static_cast<int>(std::lround(mri.lpsToIndex(mre.indexToLps(there)).z()));
-  if (counting == slice) return std::nullopt;
-  const session::OutlineCoverage c = session.coverage();
-  if (!c.drawn.contains(counting) && !c.interpolated.contains(counting) && !c.empty.contains(counting))
-    return std::nullopt;
-  return counting;
-}
-
 }  // namespace
 
 OutlinePanel::OutlinePanel(session::Session& session, const Keys& keys, QWidget* parent)
@@ -54,6 +31,8 @@ OutlinePanel::OutlinePanel(session::Session& session, const Keys& keys, QWidget*
   QVBoxLayout* side = column();
   makeTools(side);
   makeReadout(side);
+  makeWhatIsMeasured(side);
+  makeScale(side);
   makeList(side);
   connect(&session_, &session::Session::statisticsChanged, this, &OutlinePanel::showStatistics);
   connect(&session_, &session::Session::contoursChanged, this, &OutlinePanel::showOutlines);
@@ -101,6 +80,12 @@ void OutlinePanel::makeReadout(QVBoxLayout* side) {
   pooled_->setMinimumHeight(76);
   pooled_->setAlignment(Qt::AlignTop);
   side->addWidget(pooled_);
+  reading_ = labelled({}, "faint");
+  reading_->setObjectName(QStringLiteral("readingText"));
+  reading_->setToolTip(tr(
+      "Repeatability coefficient of the QIBA profile for liver MR elastography, 2022: a change by 19 % of the mean or "
+      "more is a true one with 95 % confidence."));
+  side->addWidget(reading_);
   more_ = button("moreNumbers", {}, {}, tr("Median, smallest and largest value, mean weighted by area"));
   more_->setProperty("flat", true);
   more_->setProperty("narrow", true);
@@ -120,6 +105,9 @@ void OutlinePanel::makeReadout(QVBoxLayout* side) {
   cursor_ = labelled({}, "faint");
   cursor_->setObjectName(QStringLiteral("cursorReadout"));
   side->addWidget(cursor_);
+}
+
+void OutlinePanel::makeWhatIsMeasured(QVBoxLayout* side) {
   auto* row = new QHBoxLayout;
   inner_ = new QCheckBox(tr("Inner region"));
   inner_->setObjectName(QStringLiteral("innerRegion"));
@@ -133,12 +121,29 @@ void OutlinePanel::makeReadout(QVBoxLayout* side) {
   row->addWidget(inner_, 1);
   row->addWidget(erosion_);
   side->addLayout(row);
+  withoutVessels_ = new QCheckBox(tr("Without vessels"));
+  withoutVessels_->setObjectName(QStringLiteral("withoutVessels"));
+  withoutVessels_->setToolTip(
+      tr("Vessels found in the MRI are not measured. They are looked for once the outlines rest."));
+  side->addWidget(withoutVessels_);
+  connect(withoutVessels_, &QCheckBox::toggled, this, [this](bool on) {
+    session::MeasureSettings settings = session_.measureSettings();
+    settings.vessels = on;
+    session_.setMeasureSettings(settings);
+  });
   connect(inner_, &QCheckBox::toggled, this, [this](bool on) {
-    session_.setMeasureSettings({on, session_.measureSettings().erosion_pixels});
+    session::MeasureSettings settings = session_.measureSettings();
+    settings.innerRoi = on;
+    session_.setMeasureSettings(settings);
   });
   connect(erosion_, &QSpinBox::valueChanged, this, [this](int px) {
-    session_.setMeasureSettings({session_.measureSettings().innerRoi, px});
+    session::MeasureSettings settings = session_.measureSettings();
+    settings.erosion_pixels = px;
+    session_.setMeasureSettings(settings);
   });
+}
+
+void OutlinePanel::makeScale(QVBoxLayout* side) {
   side->addWidget(section(tr("Colour scale")));
   auto* scales = new QHBoxLayout;
   auto* group = new QButtonGroup(this);
@@ -222,47 +227,6 @@ void OutlinePanel::setScale(double high_kPa) {
   (high_kPa < 10.0 ? scale8_ : scale20_)->setChecked(true);
 }
 
-QString OutlinePanel::numbersInFull(const session::LiveStatistics& live) {
-  if (!live.pooled) return {};
-  const auto line = [](const elastography::Statistics& s) {
-    return tr("median %1, smallest %2, largest %3 kPa (µ)").arg(kPa(s.median_kPa), kPa(s.min_kPa), kPa(s.max_kPa));
-  };
-  QString text = tr("All slices: ") + line(live.pooled->pooled) +
-                 tr("; mean weighted by area %1 kPa (µ)").arg(kPa(live.pooled->areaWeightedMean_kPa));
-  if (live.slice) text += QLatin1Char('\n') + tr("This slice: ") + line(*live.slice);
-  return text;
-}
-
-void OutlinePanel::showStatistics() {
-  const session::LiveStatistics& live = session_.statistics();
-  full_->setText(numbersInFull(live));
-  volume_->setText(live.region ? tr("Volume %1 mL").arg(live.volume_mL, 0, 'f', live.volume_mL < 100.0 ? 1 : 0)
-                               : QString());
-  pooled_->setToolTip(full_->text());
-  if (!live.pooled) {
-    readout_->setText(QStringLiteral("–"));
-    pooled_->setText(live.reason);
-    return;
-  }
-  const auto line = [](const elastography::Statistics& s) {
-    return tr("%1 px → %2 after mask, %3 cm², %4 ± %5 kPa (µ)")
-        .arg(static_cast<qulonglong>(s.n_before_mask))
-        .arg(static_cast<qulonglong>(s.n))
-        .arg(s.area_mm2 / 100.0, 0, 'f', 1)
-        .arg(kPa(s.mean_kPa), kPa(s.sd_kPa));
-  };
-  const elastography::Statistics& all = live.pooled->pooled;
-  if (session_.measureSettings().innerRoi)
-    readout_->setToolTip(tr("Inner region, %1 pixels off the edge").arg(session_.measureSettings().erosion_pixels));
-  readout_->setText(tr("%1 ± %2 kPa").arg(kPa(all.mean_kPa), kPa(all.sd_kPa)));
-  QString text = tr("All slices: ") + line(all);
-  if (live.slice) text += QStringLiteral("\n") + tr("This slice: ") + line(*live.slice);
-  if (const std::optional<int> other = countsInstead(session_, slice_))
-    text +=
-        QLatin1Char('\n') + tr("This slice lies between elastography slices; slice %1 counts there.").arg(*other + 1);
-  pooled_->setText(text);
-}
-
 void OutlinePanel::showOutlines() {
   outlines_->clear();
   if (!session_.images().mri) return;
@@ -275,10 +239,7 @@ void OutlinePanel::showOutlines() {
   std::vector<Row> rows;
   for (const roi::Polygon& p : session_.contours().polygons) {
     if (p.points_lps_mm.cols() == 0) continue;
-    const QString state = p.exclude                                    ? tr("left out")
-                          : p.state == roi::PolygonState::Accepted     ? tr("drawn")
-                          : p.state == roi::PolygonState::Interpolated ? tr("interpolated")
-                                                                       : tr("draft");
+    const QString state = p.exclude ? tr("left out") : stateOf(session_.contours(), p);
     rows.push_back({tools::sliceOf(p, grid), QString::number(p.points_lps_mm.cols()), state,
                     p.state == roi::PolygonState::Accepted});
   }
@@ -304,15 +265,7 @@ void OutlinePanel::showOutlines() {
     }
   }
   if (here) outlines_->scrollToItem(here, QAbstractItemView::PositionAtCenter);
-  QString text;
-  if (!covered.drawn.empty()) {
-    text = tr("%1 drawn, %2 interpolated, %3 empty between them.")
-               .arg(covered.drawn.size())
-               .arg(covered.interpolated.size())
-               .arg(covered.empty.size());
-    if (!covered.empty.empty()) text += QLatin1Char(' ') + tr("A run fills these by shape.");
-  }
-  coverage_->setText(text);
+  coverage_->setText(whatCounts());
   showActions();
 }
 
@@ -352,11 +305,13 @@ void OutlinePanel::showTool() {
   redo_->setEnabled(session_.canRedo());
   undo_->setToolTip(tr("Undo %1 (%2)").arg(session_.undoText(), keys_.text(tools::Command::Undo)));
   redo_->setToolTip(tr("Redo %1 (%2)").arg(session_.redoText(), keys_.text(tools::Command::Redo)));
-  accept_->setEnabled(drawing || editing);
+  const session::OutlineCoverage covered = session_.coverage();
+  accept_->setEnabled(drawing || editing || covered.drafts.contains(slice_) || covered.interpolated.contains(slice_));
   accept_->setText(drawing ? tr("Close") : tr("Accept"));
   delete_->setEnabled(session_.tool().selected().has_value());
   showActions();
-  const QSignalBlocker quietInner(inner_), quietErosion(erosion_);
+  const QSignalBlocker quietInner(inner_), quietErosion(erosion_), quietVessels(withoutVessels_);
+  withoutVessels_->setChecked(session_.measureSettings().vessels);
   inner_->setChecked(session_.measureSettings().innerRoi);
   erosion_->setValue(session_.measureSettings().erosion_pixels);
   switch (state) {

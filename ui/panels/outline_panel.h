@@ -14,6 +14,12 @@ class QSpinBox;
 class QTreeWidget;
 class QVBoxLayout;
 
+namespace glisson::commands {
+struct Outlines;
+}
+namespace glisson::roi {
+struct Polygon;
+}
 namespace glisson::session {
 class Session;
 struct LiveStatistics;
@@ -38,6 +44,8 @@ class OutlinePanel : public SidePanel {
   void setFusion(double opacity);  ///< of the map over the MRI, 0 ... 1
   /// Median, range and, over all slices, the mean weighted by area; empty where nothing is measured.
   static QString numbersInFull(const session::LiveStatistics& live);
+  /// What an outline is: drawn, a draft, or what made it and whether it was accepted.
+  static QString stateOf(const commands::Outlines& outlines, const roi::Polygon& polygon);
 
  signals:
   void commandWanted(glisson::tools::Command command);
@@ -49,19 +57,23 @@ class OutlinePanel : public SidePanel {
  private:
   void makeTools(QVBoxLayout* side);
   void makeReadout(QVBoxLayout* side);
+  void makeWhatIsMeasured(QVBoxLayout* side);
+  void makeScale(QVBoxLayout* side);
   void makeList(QVBoxLayout* side);
   void showTool();
   static QString hintOf(tools::ToolMode mode);
   void showStatistics();
   void showOutlines();
   void showActions();
+  QString whatCounts() const;
+  QString readingInWords() const;
   QPushButton* commandButton(const char* name, const QString& text, const QString& icon, tools::Command command);
   session::Session& session_;
   const Keys& keys_;
   int slice_ = -1;
-  QLabel *stateText_, *readout_, *pooled_, *full_, *cursor_, *coverage_, *volume_;
+  QLabel *stateText_, *readout_, *pooled_, *reading_, *full_, *cursor_, *coverage_, *volume_;
   QSlider* fusion_;
-  QCheckBox* inner_;
+  QCheckBox *inner_, *withoutVessels_;
   QSpinBox* erosion_;
   QTreeWidget* outlines_;
   QPushButton *undo_, *redo_, *accept_, *delete_, *import_, *interpolate_, *acceptAll_, *scale8_, *scale20_, *more_;

@@ -13,7 +13,7 @@
 #include "panels/palette_choice.h"
 #include "panels/placement_editor.h"
 #include "panels/retractor_form.h"
-#include "session/said.h"
+#include "panels/trust_panel.h"
 #include "session/session.h"
 #include "views/scene_view.h"
 #include "views/slice_view.h"
@@ -67,6 +67,8 @@ RetractPage::RetractPage(session::Session& session, QWidget* parent)
   connect(&session_, &session::Session::statusChanged, this, [this] {
     run_->setEnabled(!session_.busy());
     showModes();
+    showOutdated();
+    showDrafts();
   });
   clock_.setInterval(40);
   connect(&clock_, &QTimer::timeout, this, [this] { time_->setValue(time_->value() >= 100 ? 0 : time_->value() + 2); });
@@ -131,6 +133,23 @@ void RetractPage::showModes() {
     modeWords_->setText(place_->isChecked() ? tr("Drag bar, bar ends, hoist and holds; then Run.") : QString());
 }
 
+void RetractPage::showOutdated() {
+  const QString words = TrustPanel::outdated(session_);
+  for (QWidget* shown : {static_cast<QWidget*>(numbers_), static_cast<QWidget*>(contact_)})
+    shown->setEnabled(words.isEmpty());
+  scene_->setOutdated(words);
+}
+
+/// What is drawn and does not count is said before it is run without.
+void RetractPage::showDrafts() {
+  QStringList slices;
+  for (const int k : session_.coverage().drafts) slices << QString::number(k + 1);
+  drafts_->setVisible(!slices.isEmpty());
+  drafts_->setText(slices.isEmpty() ? QString()
+                                    : tr("Drafts do not count (slices %1): accept or delete them on Segment first.")
+                                          .arg(slices.join(QStringLiteral(", "))));
+}
+
 QWidget* RetractPage::makePlayBar() {
   auto* bar = new QWidget;
   auto* row = new QHBoxLayout(bar);
@@ -176,10 +195,14 @@ QWidget* RetractPage::makeSide() {
   side->addWidget(numbers_);
   contact_ = new ContactTable(session_);
   side->addWidget(contact_);
-  validity_ = labelled({}, "faint");
-  validity_->setObjectName(QStringLiteral("retractValidity"));
-  side->addWidget(validity_);
+  side->addWidget(section(tr("How far to trust it")));
+  trust_ = new TrustPanel(session_, QStringLiteral("retractValidity"));
+  side->addWidget(trust_);
+  connect(trust_, &TrustPanel::runWanted, this, &RetractPage::runWanted);
   side->addStretch();
+  drafts_ = labelled({}, "caution");
+  drafts_->setObjectName(QStringLiteral("draftsNote"));
+  side->addWidget(drafts_);
   run_ = button("runButton", tr("Run"), QStringLiteral("run"), tr("Build, retract and compare (Ctrl+R)"));
   run_->setProperty("primary", true);
   side->addWidget(run_);
@@ -196,6 +219,8 @@ void RetractPage::showResult() {
   setPlaying(false);
   const auto result = session_.result();
   contact_->show_();
+  trust_->show_();
+  showOutdated();
   setPlacing(false);
   play_->setEnabled(scene_->hasScene());
   time_->setEnabled(scene_->hasScene());
@@ -206,7 +231,6 @@ void RetractPage::showResult() {
                           : tr("Straight to the end of the time steps, not their course."));
   if (!result) {
     numbers_->setText(tr("Not run yet."));
-    validity_->clear();
     return;
   }
   const retraction::Result& r = result->primary;
@@ -220,12 +244,6 @@ void RetractPage::showResult() {
                         .arg(r.reaction_N.norm(), 0, 'f', 2)
                         .arg(100.0 * r.max_strain, 0, 'f', 1)
                         .arg(r.max_rotation_deg, 0, 'f', 1));
-  QStringList words;
-  for (const QString& w : session::said(r.validity, r.doubts)) words << sentence(w);
-  if (words.isEmpty())
-    words << (r.kinematics == retraction::Kinematics::Linear ? tr("Linear theory can be trusted here.")
-                                                             : tr("The large deformation converged."));
-  validity_->setText(words.join(QLatin1Char('\n')));
 }
 
 }  // namespace glisson::panels

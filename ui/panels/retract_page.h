@@ -21,6 +21,7 @@ namespace glisson::panels {
 class ContactTable;
 class LiveBar;
 class PlacementEditor;
+class TrustPanel;
 
 /// Retract: bar, hoist and holds laid by hand; after a run the moving liver with a play bar, and the retractor in the
 /// hand.
@@ -44,6 +45,8 @@ class RetractPage : public QWidget {
   QWidget* makeModes();
   void showModes();
   void showResult();
+  void showOutdated();
+  void showDrafts();
   void setPlaying(bool playing);
   void setPlacing(bool placing);
   session::Session& session_;
@@ -54,8 +57,9 @@ class RetractPage : public QWidget {
   QWidget* playBar_;
   QSlider* time_;
   QPushButton *play_, *run_, *place_, *moved_;
-  QLabel *fraction_, *notCourse_, *numbers_, *validity_, *modeWords_;
+  QLabel *fraction_, *notCourse_, *numbers_, *modeWords_, *drafts_;
   ContactTable* contact_;
+  TrustPanel* trust_;
   QTimer clock_;
 };
 

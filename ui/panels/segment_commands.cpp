@@ -61,8 +61,12 @@ bool SegmentPage::runOutline(Command command) {
     case Command::Unite: session_.apply(tool.combine(roi::SetOperation::Union, mri_->plane())); return true;
     case Command::Subtract: session_.apply(tool.combine(roi::SetOperation::Difference, mri_->plane())); return true;
     case Command::Intersect: session_.apply(tool.combine(roi::SetOperation::Intersection, mri_->plane())); return true;
-    case Command::CloseOrAccept: key(ToolKey::Enter); return true;
-    case Command::CloseAndAccept: key(ToolKey::CtrlEnter); return true;
+    case Command::CloseOrAccept:
+      if (chooseWaiting()) key(ToolKey::Enter);
+      return true;
+    case Command::CloseAndAccept:
+      if (chooseWaiting()) key(ToolKey::CtrlEnter);
+      return true;
     case Command::LastVertex: hand_ == Hand::Measure ? measure_.removeLast() : key(ToolKey::Backspace); return true;
     case Command::Delete: hand_ == Hand::Measure ? measure_.removeLast() : key(ToolKey::Delete); return true;
     case Command::Park: hand_ == Hand::Measure ? measure_.cancel() : key(ToolKey::Escape); return true;
@@ -85,6 +89,22 @@ bool SegmentPage::runOutline(Command command) {
       return true;
     default: return false;
   }
+}
+
+// Enter accepts what waits on the slice shown, without its having to be clicked first. False: nothing waits there.
+bool SegmentPage::chooseWaiting() {
+  tools::PolygonTool& tool = session_.tool();
+  if (tool.state() == tools::ToolState::Drawing || tool.selected()) return true;
+  const auto& polygons = session_.contours().polygons;
+  const tools::SlicePlane plane = mri_->plane();
+  for (const roi::PolygonState state : {roi::PolygonState::Draft, roi::PolygonState::Interpolated})
+    for (std::size_t p = 0; p < polygons.size(); ++p) {
+      if (polygons[p].state != state || !plane.holds(polygons[p])) continue;
+      tool.selectPolygon(p);
+      return true;
+    }
+  emit session_.message(tr("Nothing on this slice waits to be accepted."));
+  return false;
 }
 
 bool SegmentPage::runView(Command command) {

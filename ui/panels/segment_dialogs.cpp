@@ -95,10 +95,7 @@ void SegmentPage::showProperties(std::size_t index) {
                     .arg(live.slice->n)
                     .arg(live.slice->n_before_mask);
   if (const QString full = OutlinePanel::numbersInFull(live); !full.isEmpty()) stiffness += QLatin1Char('\n') + full;
-  const QString state = polygon.exclude                                    ? tr("left out")
-                        : polygon.state == roi::PolygonState::Accepted     ? tr("accepted")
-                        : polygon.state == roi::PolygonState::Interpolated ? tr("interpolated")
-                                                                           : tr("draft");
+  const QString state = polygon.exclude ? tr("left out") : OutlinePanel::stateOf(session_.contours(), polygon);
   auto* dialog = new QInputDialog(this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setObjectName(QStringLiteral("outlineProperties"));

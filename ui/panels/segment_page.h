@@ -80,6 +80,7 @@ class SegmentPage : public QWidget {
   // segment_commands.cpp
   void keyDown(QKeyEvent* event);
   void keyUp(QKeyEvent* event);
+  bool chooseWaiting();
   bool runOutline(tools::Command command);
   bool runView(tools::Command command);
   void take(Hand hand, tools::ToolMode mode);

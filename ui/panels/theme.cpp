@@ -79,9 +79,8 @@ QString styleSheet(const Colours& c) {
     QScrollArea { border: none; background: transparent; }
     QLabel[role="heading"] { font-size: 15pt; font-weight: 600; }
     QLabel[role="section"] { color: %faint; font-size: 8.5pt; font-weight: 700; }
-    QLabel[role="faint"] { color: %faint; }
-    QLabel[role="number"] { font-size: 19pt; font-weight: 600; }
-    QLabel#viewHint { background: #101216; color: #94a0b0; }
+    QLabel[role="faint"], QLabel:disabled { color: %faint; } QLabel[role="caution"] { color: %caution; font-weight: 600; }
+    QLabel[role="number"] { font-size: 19pt; font-weight: 600; } QLabel#viewHint { background: #101216; color: #94a0b0; }
     QLabel#researchUse { color: %faint; font-weight: 600; padding: 0 8px; }
     QFrame[role="card"] { background: %base; border: 1px solid %border; border-radius: 8px; }
     QScrollArea#sidePanel { background: %window; border: none; border-left: 1px solid %border; }
@@ -92,6 +91,7 @@ QString styleSheet(const Colours& c) {
   const auto put = [&css](const char* key, const QColor& colour) { css.replace(QLatin1String(key), colour.name()); };
   put("%accentText", c.accentText);
   put("%accent", c.accent);
+  put("%caution", caution());
   put("%window", c.window);
   put("%base", c.base);
   put("%raised", c.raised);

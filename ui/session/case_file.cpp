@@ -23,6 +23,7 @@ int writeCaseRecord(const CaseRecord& record, const std::filesystem::path& folde
             {"slices", marksToJson(record.outlines.marks)},
             {"measure", toJson(record.measure)},
             {"parameters", toJson(record.parameters)}};
+  if (const Json made = madeToJson(record.outlines); !made.empty()) j["made"] = made;
   putChoices(record.choices, j["patient"]);
   if (record.lastRunStale) j["last_run"] = {{"stale", *record.lastRunStale}};
   return pipeline::writeCase(
@@ -39,6 +40,7 @@ CaseRecord readCaseRecord(const std::filesystem::path& file) {
   try {
     const Json j = Json::parse(text.record);
     record.outlines.marks = marksFromJson(j.at("slices"));
+    if (j.contains("made")) record.outlines.made = madeFromJson(j["made"]);
     record.seriesUid = j.at("patient").value("series_uid", std::string());
     record.choices = choicesFromJson(j.at("patient"));
     if (j.contains("last_run")) record.lastRunStale = j["last_run"].at("stale").get<bool>();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -75,12 +76,15 @@ inline std::optional<SettledAct> settleInterpolated(const tools::Act& act, const
 struct OutlineCoverage {
   std::set<int> drawn, interpolated;  ///< slices with accepted outlines; with interpolated ones only
   std::set<int> empty;                ///< slices between the first and the last of these that hold none
+  std::set<int> drafts;               ///< slices with outlines that do not count, beside others or alone
 };
 
 inline OutlineCoverage coverageOf(const roi::ContourStack& contours, const image::Grid& grid) {
   OutlineCoverage c;
   for (const roi::Polygon& p : contours.polygons) {
-    if (p.exclude || p.points_lps_mm.cols() == 0 || p.state == roi::PolygonState::Draft) continue;
+    if (p.points_lps_mm.cols() == 0) continue;
+    if (p.state == roi::PolygonState::Draft) c.drafts.insert(tools::sliceOf(p, grid));
+    if (p.exclude || p.state == roi::PolygonState::Draft) continue;
     (p.state == roi::PolygonState::Accepted ? c.drawn : c.interpolated).insert(tools::sliceOf(p, grid));
   }
   for (const int k : c.drawn) c.interpolated.erase(k);
@@ -90,6 +94,21 @@ inline OutlineCoverage coverageOf(const roi::ContourStack& contours, const image
     for (int k = *all.begin(); k < *all.rbegin(); ++k)
       if (!all.contains(k)) c.empty.insert(k);
   return c;
+}
+
+/// What made the outlines that count, by slice: the slices that nobody has drawn, accepted or not.
+inline std::map<int, commands::MadeBy> madeSlices(const commands::Outlines& contours, const image::Grid& grid) {
+  std::map<int, commands::MadeBy> made;
+  std::set<int> byHand;
+  for (const roi::Polygon& p : contours.polygons) {
+    if (p.exclude || p.points_lps_mm.cols() == 0 || p.state == roi::PolygonState::Draft) continue;
+    if (const auto by = contours.madeBy(p))
+      made[tools::sliceOf(p, grid)] = *by;
+    else
+      byHand.insert(tools::sliceOf(p, grid));
+  }
+  for (const int k : byHand) made.erase(k);
+  return made;
 }
 
 }  // namespace glisson::session

@@ -67,7 +67,8 @@ std::string recordOf(const Journalled& before, const Journalled& now, bool whole
                  {"indices", indices},
                  {"contours", roi::toJson(changed)},
                  {"drawing", drawing.polygons.empty() ? std::string() : roi::toJson(drawing)},
-                 {"marks", marksToJson(now.outlines.marks)}};
+                 {"marks", marksToJson(now.outlines.marks)},
+                 {"made", madeToJson(now.outlines)}};
   if (now.settings && (whole || now.settings != before.settings)) record["settings"] = settingsToJson(*now.settings);
   return record.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -85,6 +86,8 @@ void applyRecord(Journalled& state, const std::string& payload) {
   next.outlines.frameOfReferenceUid = changed.frameOfReferenceUid;
   next.outlines.seriesUid = changed.seriesUid;
   next.outlines.marks = marksFromJson(record.at("marks"));
+  next.outlines.made = record.contains("made") ? madeFromJson(record["made"])
+                                               : std::map<std::uint64_t, commands::MadeBy>();  // of an earlier version
   next.source = record.at("source").get<std::string>();
   next.caseFile = record.at("case").get<std::string>();
   next.seriesUid = record.at("series").get<std::string>();

@@ -8,18 +8,18 @@
 #include <utility>
 
 #include "base/error.h"
-#include "elastography/roi_mapping.h"
-#include "image/morphology.h"
 #include "pipeline/sources.h"
 #include "session/act_command.h"
-#include "session/measured_contours.h"
 #include "session/model_preview.h"
+#include "session/trust.h"
 
 namespace glisson::session {
 
 namespace {
 
 constexpr int measureEvery_ms = 16;
+constexpr int regionAfter_ms = 120;
+constexpr int vesselsAfter_ms = 3000;
 constexpr int autosaveEvery_ms = 30000;
 constexpr int journalAfter_ms = 200;
 
@@ -50,6 +50,12 @@ Session::Session(QObject* parent) : QObject(parent), tool_(contours_) {
   measureTimer_.setSingleShot(true);
   measureTimer_.setInterval(measureEvery_ms);
   connect(&measureTimer_, &QTimer::timeout, this, &Session::measure);
+  regionTimer_.setSingleShot(true);
+  regionTimer_.setInterval(regionAfter_ms);
+  connect(&regionTimer_, &QTimer::timeout, this, &Session::measureRegion);
+  vesselTimer_.setSingleShot(true);
+  vesselTimer_.setInterval(vesselsAfter_ms);
+  connect(&vesselTimer_, &QTimer::timeout, this, &Session::findVessels);
   connect(&worker_, &Worker::progressed, this, &Session::progressed);
   journalTimer_.setSingleShot(true);
   journalTimer_.setInterval(journalAfter_ms);
@@ -119,6 +125,8 @@ void Session::toolMoved() {
 
 void Session::contoursTouched() {
   ++revision_;
+  ++outlinesRevision_;
+  vesseler_.cancel();
   unsaved_.outlines = true;
   journal();
   failure_[static_cast<std::size_t>(Step::Segment)].clear();
@@ -174,7 +182,11 @@ QString Session::redoText() const {
 
 void Session::setShownPlane(const tools::SlicePlane& plane) {
   plane_ = plane;
-  if (!measureTimer_.isActive()) measureTimer_.start();
+  // Every slice is measured at once: another one has its numbers at once.
+  pickSlice();
+  emit statisticsChanged();
+  const RegionKey now{revision_, tool_.state(), tool_.selected()};
+  if (measuredKey_ != now) measureSoon();
 }
 
 void Session::setParameters(const Parameters& parameters) {
@@ -191,8 +203,9 @@ void Session::settingsTouched() {
   if (!journalTimer_.isActive()) journalTimer_.start();
 }
 
-bool Session::resultIsStale() const {
-  return result_ && revision_ != resultRevision_;
+ChangedSince Session::changedSinceRun() const {
+  if (!result_) return {};
+  return {outlinesRevision_ != resultOutlines_, !(parameters_ == resultParameters_), resultWasStale_};
 }
 
 void Session::cancel() {
@@ -222,124 +235,16 @@ StepStatus Session::status(Step step) const {
   if (accepted == 0) return {StepState::Empty, tr("Needs an outline")};
   if (running) return {StepState::Running, tr("Running")};
   if (step != Step::Model && !failed.isEmpty()) return {StepState::Failed, failed};
-  if (result_ && resultIsStale()) return {StepState::Stale, tr("Changed since the last run")};
+  if (resultIsStale()) return {StepState::Stale, tr("Changed since the last run")};
   if (!result_) {
     if (step == Step::Compare) return {StepState::Empty, tr("Needs a run")};
     return {StepState::Ready, step == Step::Model ? tr("Set and check") : tr("Ready to run")};
   }
   if (step == Step::Model) return {StepState::Done, tr("%1 cells").arg(static_cast<qulonglong>(result_->model.cells))};
+  if (isNoAnswer(*result_)) return {StepState::Failed, tr("No answer: see How far to trust it")};
   if (step == Step::Retract) return {StepState::Done, tr("%1 DOFs").arg(result_->primary.dofs)};
   if (!result_->difference) return {StepState::Empty, tr("Nothing was compared")};
   return {StepState::Done, tr("mean %1 mm").arg(result_->difference->mean_mm, 0, 'f', 2)};
-}
-
-namespace {
-
-/// The region that counts, as a run takes it: empty slices between outlines are filled by shape. Null where none
-/// counts.
-std::shared_ptr<const image::Mask> regionOf(const commands::Outlines& counted, const image::Grid& grid) {
-  pipeline::LoadedRoi roi;
-  roi.contours = counted;
-  try {
-    pipeline::completeOutlines(roi, grid);
-    return std::make_shared<const image::Mask>(roi::rasterise(*roi.contours, grid));
-  } catch (const BadInput&) {
-    return nullptr;  // statistics say why
-  }
-}
-
-double volumeOf_mL(const image::Mask& region) {
-  const auto inside = std::count_if(region.values.begin(), region.values.end(), [](auto v) { return v != 0; });
-  return 1e-3 * static_cast<double>(inside) * region.grid.voxelVolume_mm3();
-}
-
-}  // namespace
-
-// A closed outline that is being adjusted counts in the live readout, though it is not accepted yet; so does the one
-// that is being drawn.
-commands::Outlines Session::countedNow() const {
-  commands::Outlines counted = contours_;
-  if (tool_.preview().cols() > 0 && tool_.selected())
-    counted.polygons[*tool_.selected()].points_lps_mm = tool_.preview();
-  if (tool_.drawing().cols() >= 3) {
-    roi::Polygon inWork;
-    inWork.points_lps_mm = tool_.outlineInWork();
-    counted.polygons.push_back(std::move(inWork));
-  }
-  if (tool_.state() == tools::ToolState::Editing && tool_.selected() && *tool_.selected() < counted.polygons.size())
-    counted.polygons[*tool_.selected()].state = roi::PolygonState::Accepted;
-  return counted;
-}
-
-void Session::measure() {
-  const auto nothing = [this](const QString& why) {
-    statistics_ = {};
-    statistics_.reason = why;
-    emit statisticsChanged();
-  };
-  if (!images_.mri) {
-    nothing(tr("No elastogram is open."));
-    return;
-  }
-  if (measurer_.busy()) {
-    measureAgain_ = true;
-    return;
-  }
-  const commands::Outlines counted = countedNow();
-  const bool any = std::any_of(counted.polygons.begin(), counted.polygons.end(),
-                               [](const auto& p) { return p.state != roi::PolygonState::Draft; });
-  if (!any) {
-    nothing(images_.stiffness ? tr("Draw an outline to measure.") : tr("No elastogram is open."));
-    return;
-  }
-  struct Measured {
-    LiveStatistics live;
-    std::shared_ptr<const image::Mask> inner;
-  };
-  // Another slice has another readout and the same region.
-  const RegionKey key{revision_, tool_.state(), tool_.selected()};
-  const bool inWork = tool_.preview().cols() > 0 || tool_.drawing().cols() >= 3;
-  const auto region = !inWork && key == regionKey_ ? statistics_.region : nullptr;
-  regionKey_ = inWork ? std::nullopt : std::optional(key);
-  auto now = std::make_shared<Measured>();
-  measurer_.start(
-      [now, counted, region, images = images_, plane = plane_, settings = measure_](const Progress&) {
-        LiveStatistics& live = now->live;
-        live.region = region ? region : regionOf(counted, images.mri->grid);
-        if (live.region) live.volume_mL = volumeOf_mL(*live.region);
-        if (!images.stiffness) {
-          live.reason = tr("No elastogram is open.");
-          return;
-        }
-        const image::Grid& grid = images.stiffness->values_kPa.grid;
-        try {
-          pipeline::LoadedRoi roi;
-          roi.contours = measuredContours(counted, images.mri->grid, grid);
-          // As a run and the command line measure: empty slices between outlines are interpolated.
-          const elastography::MappedRoi mapped = pipeline::mapRoi(roi, images.mri->grid, *images.stiffness);
-          elastography::MeasureOptions options;
-          options.erosion_pixels = settings.innerRoi ? settings.erosion_pixels : 0;
-          if (settings.innerRoi)
-            now->inner = std::make_shared<image::Mask>(image::erodeInPlane(mapped.mask, settings.erosion_pixels));
-          live.pooled = elastography::measure(*images.stiffness, mapped.mask, options);
-        } catch (const Error& none) {
-          live.reason = QString::fromUtf8(none.what());
-          return;
-        }
-        if (!plane) return;
-        const Eigen::Vector3d centre =
-            plane->grid.indexToLps({0.5 * plane->grid.size.x(), 0.5 * plane->grid.size.y(), 1.0 * plane->slice});
-        const auto k = static_cast<int>(std::lround(grid.lpsToIndex(centre).z()));
-        for (const elastography::SliceStatistics& s : live.pooled->slices)
-          if (s.slice == k) live.slice = s.statistics;
-      },
-      [this, now](std::exception_ptr failure) {
-        if (failure) now->live.reason = reasonOf(failure);
-        statistics_ = now->live;
-        inner_ = now->inner;
-        emit statisticsChanged();
-        if (std::exchange(measureAgain_, false)) measure();
-      });
 }
 
 void Session::ended(Work work, std::exception_ptr failure) {

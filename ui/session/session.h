@@ -74,12 +74,21 @@ struct Refusal {
   QString reason;  ///< a sentence
 };
 
+/// What is no longer as it was when the last run began.
+struct ChangedSince {
+  bool outlines = false;    ///< with images, roles and marks of slices
+  bool parameters = false;  ///< of Model and Retract, with what was laid by hand
+  bool before = false;      ///< something, before the case was opened
+  bool any() const { return outlines || parameters || before; }
+};
+
 /// Stiffness under the contours, outline in work included.
 struct LiveStatistics {
   std::shared_ptr<const image::Mask> region;        ///< what counts, on the MRI grid, with empty slices filled by shape
   double volume_mL = 0.0;                           ///< of that
-  std::optional<elastography::Statistics> slice;    ///< of the elastogram's slice nearest to the one shown
+  std::optional<elastography::Statistics> slice;    ///< of the elastogram's slice nearest to the one shown now
   std::optional<elastography::Measurement> pooled;  ///< of all slices
+  bool rimKept = false;                             ///< no inner region is left of so small an outline: measured whole
   QString reason;                                   ///< why there are none
 };
 
@@ -88,6 +97,7 @@ struct CaseFiles {
   OpenImages images;
   commands::Outlines contours;
   pipeline::Scene scene;
+  std::shared_ptr<const image::Mask> vessels;  ///< that are not measured; null: none, or they are measured
 };
 /// Writes the case into the folder (and mri.nrrd, where no folder names the series), for this window and for
 /// `glisson-cli run case.json`. Returns its version. Throws BadInput.
@@ -173,6 +183,8 @@ class Session : public QObject {
   void setMeasureSettings(const MeasureSettings& settings);
   /// Border of the inner region on the elastogram, null where it is off or empty.
   const std::shared_ptr<const image::Mask>& innerMask() const { return inner_; }
+  /// Vessels found in the MRI inside the region, on the grid of the elastogram; null while they are not known.
+  const std::shared_ptr<const image::Mask>& vesselMask() const { return vessels_; }
   /// A second reader's outlines, shown beside the first's and compared with them; empty path: none. Throws BadInput.
   void loadSecondReader(const QString& file);
   const roi::ContourStack& secondReader() const { return second_; }
@@ -200,7 +212,8 @@ class Session : public QObject {
   bool busy() const { return worker_.busy(); }
   std::shared_ptr<const pipeline::RunResult> result() const { return result_; }
   std::shared_ptr<const render::RetractionScene> picture() const { return picture_; }
-  bool resultIsStale() const;
+  ChangedSince changedSinceRun() const;  ///< nothing where there is no run
+  bool resultIsStale() const { return changedSinceRun().any(); }
   QString runFolder() const;
   /// Pictures, report and record of the last run (export_results.h) into the folder, by a worker; ends with exported.
   void exportInto(const QString& folder, render::Palette palette);
@@ -284,9 +297,18 @@ class Session : public QObject {
   commands::Outlines countedNow() const;
   void contoursTouched();
   void replaceContours(roi::ContourStack after, const char* text);
+  void noteMade(const roi::ContourStack& after, commands::MadeBy by);
+  void measureSoon();
+  void pickSlice();
+  std::optional<int> mapSliceShown() const;
+  void measureRegion();
+  void findVessels();
+  void tellDrafts();
   mutable std::unique_ptr<WorkFolder> ownFolder_;  ///< goes after the workers
   Worker worker_;
   Worker measurer_;  ///< of the live readout; only the latest outlines count
+  Worker regioner_;  ///< of the region and its volume, once the hand rests
+  Worker vesseler_;  ///< of the vessels in it, once it is left alone
   bool measureAgain_ = false;
   Work work_ = Work::None;
   QString path_;
@@ -299,6 +321,7 @@ class Session : public QObject {
   std::vector<roi::Polygon> clipboard_;
   MeasureSettings measure_;
   std::shared_ptr<const image::Mask> inner_;
+  std::shared_ptr<const image::Mask> vessels_, vesselsOf_;  ///< on the map, and the region that they were found in
   commands::UndoStack undo_;
   tools::PolygonTool tool_;
   std::optional<tools::SlicePlane> plane_;
@@ -309,8 +332,9 @@ class Session : public QObject {
     std::optional<std::size_t> selected;
     bool operator==(const RegionKey&) const = default;
   };
-  std::optional<RegionKey> regionKey_;  ///< what statistics_.region was made of
-  QTimer measureTimer_;
+  std::optional<RegionKey> measuredKey_;  ///< what statistics_.pooled was made of; empty: of an outline in work
+  std::optional<RegionKey> regionKey_;    ///< what statistics_.region was made of
+  QTimer measureTimer_, regionTimer_, vesselTimer_;
   Parameters parameters_;
   struct Placed {
     Placement placement;
@@ -341,8 +365,11 @@ class Session : public QObject {
   struct {
     QString folder;
     std::weak_ptr<const pipeline::RunResult> result;
-  } lastKept_;                                       ///< run and case folder that hold each other already
-  std::uint64_t revision_ = 0, resultRevision_ = 0;  ///< of everything a run depends on
+  } lastKept_;                                               ///< run and case folder that hold each other already
+  std::uint64_t revision_ = 0;                               ///< of everything a run depends on
+  std::uint64_t outlinesRevision_ = 0, resultOutlines_ = 0;  ///< of outlines and images: now, and of the last run
+  Parameters resultParameters_;                              ///< of the last run
+  bool resultWasStale_ = false;                              ///< already when its case was opened
   Unsaved unsaved_;
   std::array<QString, 5> failure_;  ///< per step, empty where none
 };

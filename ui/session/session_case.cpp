@@ -41,13 +41,15 @@ pipeline::Scene Session::scene(const std::filesystem::path& folder) const {
 }
 
 CaseFiles Session::caseFiles(const std::filesystem::path& folder) const {
-  return {images_, contours_, scene(folder)};
+  return {images_, contours_, scene(folder), measure_.vessels ? vessels_ : nullptr};
 }
 
 namespace {
 
-/// The scene with the places of its images, which are written where no folder names them. Also the outlines as they are
-/// measured, where these are others.
+constexpr const char* vesselsFile = "vessels.nrrd";
+
+/// The scene with the places of its images, which are written where no folder names them. Also what is not measured:
+/// vessels, and the outlines as they are measured, where these are others.
 pipeline::Scene placed(const CaseFiles& files, const std::filesystem::path& folder) {
   pipeline::Scene s = files.scene;
   if (!files.images.mri) throw BadInput("there is nothing to save: open images first");
@@ -70,6 +72,10 @@ pipeline::Scene placed(const CaseFiles& files, const std::filesystem::path& fold
   const std::filesystem::path measured = folder / "contours-measured.json";
   const bool leftOut = std::any_of(files.contours.marks.begin(), files.contours.marks.end(),
                                    [](const auto& m) { return m.second == commands::SliceMark::NoWave; });
+  if (files.vessels)
+    image::writeVolume(folder / vesselsFile, *files.vessels);
+  else
+    std::filesystem::remove(folder / vesselsFile, ignored);
   if (leftOut && files.images.stiffness)
     writeAtomically(measured, roi::toJson(measuredContours(files.contours, files.images.mri->grid,
                                                            files.images.stiffness->values_kPa.grid)));

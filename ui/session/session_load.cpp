@@ -250,12 +250,21 @@ void Session::take(Opened& opened) {
   tool_.selectPolygon(std::nullopt);
   tool_.contoursChanged();
   plane_.reset();
+  statistics_ = {};
+  vesseler_.cancel();
+  vessels_.reset();
+  vesselsOf_.reset();
+  measuredKey_.reset();
+  regionKey_.reset();
   failure_ = {};
   ++revision_;
+  ++outlinesRevision_;
   result_ = opened.run ? opened.run->result : nullptr;
   picture_ = opened.run ? opened.run->picture : nullptr;
   if (opened.run) {
-    resultRevision_ = revision_ - (*opened.wanted.record->lastRunStale ? 1 : 0);
+    resultOutlines_ = outlinesRevision_;
+    resultParameters_ = parameters_;
+    resultWasStale_ = *opened.wanted.record->lastRunStale;
     lastKept_ = {caseFolder_, result_};
   }
   if (!images_.mri) journal_.reset();  // of the patient before
@@ -336,6 +345,7 @@ void Session::readAgain(const Choices& choices) {
                   tool_.setImage(images_.mri);
                   images_.choices = choices;
                   ++revision_;
+                  ++outlinesRevision_;
                   unsaved_.settings = true;
                   ended(Work::Load, failure);
                   drawnOn();

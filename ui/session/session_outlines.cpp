@@ -23,9 +23,12 @@ void Session::interpolateOutlines() {
     emit message(tr("Outline the liver on two slices at least, and accept these outlines (Enter)."));
     return;
   }
-  // What was interpolated before is made anew from the outlines as they are now.
+  // What was interpolated before is made anew from the outlines as they are now; proposals and copies stay.
   auto full = std::make_shared<roi::ContourStack>(contours_);
-  std::erase_if(full->polygons, [](const auto& p) { return p.state == roi::PolygonState::Interpolated; });
+  std::erase_if(full->polygons, [this](const auto& p) {
+    return p.state == roi::PolygonState::Interpolated &&
+           contours_.madeBy(p).value_or(commands::MadeBy::Interpolation) == commands::MadeBy::Interpolation;
+  });
   const std::uint64_t revision = revision_;
   work_ = Work::Interpolate;
   worker_.start(
@@ -42,6 +45,7 @@ void Session::interpolateOutlines() {
           emit message(tr("There is no empty slice between outlines that overlap."));
           return;
         }
+        noteMade(*full, commands::MadeBy::Interpolation);
         replaceContours(std::move(*full), "interpolate between slices");
         const OutlineCoverage now = coverage();
         emit message(
@@ -66,13 +70,17 @@ void Session::propose(const Eigen::Vector3d& seed_lps) {
   const std::uint64_t revision = revision_;
   work_ = Work::Propose;
   worker_.start(
-      [full, leaked, notes, seed_lps, mri = images_.mri,
+      [full, leaked, notes, seed_lps, mri = images_.mri, outlines = contours_,
        sops = scan_.series[static_cast<std::size_t>(images_.mriSeries)].sopInstanceUids](const Progress& progress) {
         const roi::Proposal proposal = roi::propose(*mri, seed_lps, {}, progress);
         *leaked = proposal.touchesBorder;
         for (const std::string& note : proposal.notes) *notes += " (" + QString::fromStdString(note) + ")";
-        const std::set<int> drawn = coverageOf(*full, mri->grid).drawn;
-        std::erase_if(full->polygons, [](const auto& p) { return p.state == roi::PolygonState::Interpolated; });
+        std::erase_if(full->polygons, [&outlines](const auto& p) {
+          return p.state == roi::PolygonState::Interpolated && outlines.madeBy(p) != commands::MadeBy::Copy;
+        });
+        const OutlineCoverage kept = coverageOf(*full, mri->grid);
+        std::set<int> drawn = kept.drawn;
+        drawn.insert(kept.interpolated.begin(), kept.interpolated.end());
         for (roi::Polygon& p : roi::contoursOf(proposal.mask).polygons) {
           const int k = tools::sliceOf(p, mri->grid);
           if (drawn.contains(k)) continue;
@@ -91,14 +99,21 @@ void Session::propose(const Eigen::Vector3d& seed_lps) {
           emit message(tr("The outlines changed meanwhile; propose again."));
           return;
         }
+        noteMade(*full, commands::MadeBy::Proposal);
         replaceContours(std::move(*full), "propose outlines");
         const QString said =
             *leaked ? tr("Proposed, but it reaches the border of the image: it may have leaked. Correct it.")
-                    : tr("Proposed on every slice. Correct and accept; nothing is decided yet.");
+                    : tr("Proposed on every slice. It counts already: correct and accept it.");
         emit message(said + *notes);
       });
   emit workStarted(tr("Proposing outlines"));
   emit statusChanged();
+}
+
+// Those that are there already keep what made them.
+void Session::noteMade(const roi::ContourStack& after, commands::MadeBy by) {
+  for (const roi::Polygon& p : after.polygons)
+    if (p.state == roi::PolygonState::Interpolated) contours_.made.try_emplace(commands::digestOf(p), by);
 }
 
 void Session::acceptInterpolated() {

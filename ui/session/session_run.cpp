@@ -20,7 +20,7 @@ void Session::run() {
   const std::filesystem::path folder = workFolder().toStdString();
   work_ = Work::Run;
   auto result = std::make_shared<pipeline::RunResult>();
-  const std::uint64_t revision = revision_;
+  tellDrafts();
   worker_.start(
       [folder, result, record = caseRecord(folder), files = caseFiles(folder)](const Progress& progress) {
         saveFiles(record, files, folder);
@@ -33,20 +33,32 @@ void Session::run() {
         pipeline::writeResultFile(options.output, *result);
         result->picture = std::move(picture);
       },
-      [this, result, revision](std::exception_ptr failure) {
+      [this, result, outlines = outlinesRevision_, parameters = parameters_](std::exception_ptr failure) {
         if (!failure) {
           // The overlays are drawn from a copy of their own, so that nothing is held twice.
           picture_ =
               result->picture ? std::make_shared<const render::RetractionScene>(std::move(*result->picture)) : nullptr;
           result->picture.reset();
           result_ = result;
-          resultRevision_ = revision;
+          resultOutlines_ = outlines;
+          resultParameters_ = parameters;
+          resultWasStale_ = false;
         }
         ended(Work::Run, failure);
         if (!failure) emit runFinished();
       });
   emit workStarted(tr("Running"));
   emit statusChanged();
+}
+
+// An outline that does not count is not lost from the region unseen.
+void Session::tellDrafts() {
+  const OutlineCoverage c = coverage();
+  if (c.drafts.empty()) return;
+  QStringList slices;
+  for (const int k : c.drafts) slices << QString::number(k + 1);
+  emit message(tr("Drafts do not count (slices %1): accept or delete them before the numbers are used.")
+                   .arg(slices.join(QStringLiteral(", "))));
 }
 
 void Session::exportInto(const QString& folder, render::Palette palette) {

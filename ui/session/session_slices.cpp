@@ -177,6 +177,7 @@ void Session::paste(const std::vector<int>& slices, roi::PolygonState state, con
       copy.sopInstanceUid = static_cast<std::size_t>(k) < sops.size() ? sops[static_cast<std::size_t>(k)] : "";
       after.polygons.push_back(std::move(copy));
     }
+  noteMade(after, commands::MadeBy::Copy);
   undo_.push(std::make_unique<commands::ReplaceContours>(contours_, std::move(after), text, middleOf(slices.back())),
              contours_);
   tool_.contoursChanged();
@@ -188,7 +189,8 @@ void Session::setMeasureSettings(const MeasureSettings& settings) {
   measure_ = settings;
   measure_.erosion_pixels = std::clamp(settings.erosion_pixels, 0, 50);
   settingsTouched();
-  if (!measureTimer_.isActive()) measureTimer_.start();
+  measureSoon();
+  vesselTimer_.start();
   emit toolChanged();
   emit statusChanged();
 }

@@ -23,10 +23,12 @@ struct Choices {
   bool operator==(const Choices&) const = default;
 };
 
-/// How stiffness is measured.
+/// How stiffness is measured: by default without the edge of the liver, where the map mixes in what lies beside it, and
+/// without vessels [qiba2022mre].
 struct MeasureSettings {
-  bool innerRoi = false;
+  bool innerRoi = true;
   int erosion_pixels = 3;  ///< of the elastogram, where innerRoi is on
+  bool vessels = true;     ///< vessels that are found in the MRI are left out
   bool operator==(const MeasureSettings&) const = default;
 };
 

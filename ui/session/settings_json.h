@@ -39,11 +39,12 @@ inline Choices choicesFromJson(const nlohmann::json& patient) {
 }
 
 inline nlohmann::json toJson(const MeasureSettings& m) {
-  return {{"inner_roi", m.innerRoi}, {"erosion_pixels", m.erosion_pixels}};
+  return {{"inner_roi", m.innerRoi}, {"erosion_pixels", m.erosion_pixels}, {"without_vessels", m.vessels}};
 }
 
 inline MeasureSettings measureFromJson(const nlohmann::json& j) {
-  return {j.at("inner_roi").get<bool>(), std::clamp(j.at("erosion_pixels").get<int>(), 0, 50)};
+  return {j.at("inner_roi").get<bool>(), std::clamp(j.at("erosion_pixels").get<int>(), 0, 50),
+          j.value("without_vessels", false)};
 }
 
 }  // namespace glisson::session

@@ -10,6 +10,21 @@
 
 namespace glisson::views {
 
+void greyOut(QPainter& painter, const QRect& place, const QString& words) {
+  painter.save();
+  painter.fillRect(place, QColor(16, 18, 22, 130));
+  QFont bold = painter.font();
+  bold.setBold(true);
+  painter.setFont(bold);
+  const QRect text =
+      painter.fontMetrics().boundingRect(place.adjusted(16, 0, -16, 0), Qt::AlignHCenter | Qt::TextWordWrap, words);
+  const QRect band(place.left(), place.top(), place.width(), text.height() + 16);
+  painter.fillRect(band, QColor(0xf0, 0xb4, 0x4a));
+  painter.setPen(QColor(16, 18, 22));
+  painter.drawText(band.adjusted(16, 8, -16, -8), Qt::AlignCenter | Qt::TextWordWrap, words);
+  painter.restore();
+}
+
 PictureView::PictureView(QWidget* parent) : QWidget(parent) {
   setMinimumSize(240, 240);
   setFocusPolicy(Qt::StrongFocus);
@@ -30,6 +45,12 @@ void PictureView::clear() {
 
 void PictureView::setHint(const QString& hint) {
   hint_ = hint;
+  update();
+}
+
+void PictureView::setOutdated(const QString& words) {
+  if (words == outdated_) return;
+  outdated_ = words;
   update();
 }
 
@@ -57,6 +78,13 @@ void PictureView::paintEvent(QPaintEvent*) {
     painter.drawText(rect().adjusted(24, 24, -24, -24), Qt::AlignCenter | Qt::TextWordWrap, hint_);
     return;
   }
+  painter.save();
+  drawImage(painter);
+  painter.restore();
+  if (!outdated_.isEmpty()) greyOut(painter, rect(), outdated_);
+}
+
+void PictureView::drawImage(QPainter& painter) const {
   painter.setRenderHint(QPainter::SmoothPixmapTransform, zoom_ < 3.0);
   painter.translate(offset_);
   if (zoom_ < 0.6) {

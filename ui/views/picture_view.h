@@ -6,7 +6,12 @@
 
 #include "render/overlay.h"
 
+class QPainter;
+
 namespace glisson::views {
+
+/// Greys what is drawn at the place and says in a band at its top why it is not of what is set now.
+void greyOut(QPainter& painter, const QRect& place, const QString& words);
 
 /// A finished picture, fitted to the widget; wheel with Ctrl, or right drag, zooms; middle or left drag moves;
 /// double-click fits. The plain wheel is passed on as a request for another slice. Keys: up and down ask for another
@@ -20,6 +25,8 @@ class PictureView : public QWidget {
   void setPicture(const render::Picture& picture);
   void clear();
   void setHint(const QString& hint);  ///< shown while there is no picture
+  /// Words across the top of a picture that is no longer of what is set: it is greyed. Empty: it is.
+  void setOutdated(const QString& words);
   bool hasPicture() const { return !image_.isNull(); }
   const QImage& picture() const { return image_; }
   void fit();
@@ -39,9 +46,10 @@ class PictureView : public QWidget {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
 
  private:
+  void drawImage(QPainter& painter) const;
   void zoomAt(const QPointF& at, double factor);
   QImage image_;
-  QString hint_;
+  QString hint_, outdated_;
   double zoom_ = 1.0;
   QPointF offset_;
   bool fitted_ = true;

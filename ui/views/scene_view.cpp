@@ -73,6 +73,12 @@ void SceneView::setCaption(const QString& caption) {
   update();
 }
 
+void SceneView::setOutdated(const QString& words) {
+  if (words == outdated_) return;
+  outdated_ = words;
+  update();
+}
+
 void SceneView::setScene(std::shared_ptr<const render::RetractionScene> scene) {
   startAnew();
   scene_ = std::move(scene);

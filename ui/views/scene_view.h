@@ -60,6 +60,7 @@ class SceneView : public QWidget {
   const ModelParts& parts() const { return parts_; }
   /// Words in a corner, over the picture.
   void setCaption(const QString& caption);
+  void setOutdated(const QString& words);  ///< as PictureView::setOutdated
 
   /// Drawn over the picture; the mouse chooses and moves them.
   void setMarks(std::vector<Mark> marks);
@@ -143,7 +144,7 @@ class SceneView : public QWidget {
   bool dragged_ = false;
   Eigen::Vector3d toolMoved_mm_ = Eigen::Vector3d::Zero(), gripMoved_mm_ = Eigen::Vector3d::Zero();
   int heldMark_ = 0;
-  QString hint_, caption_;
+  QString hint_, caption_, outdated_;
 };
 
 }  // namespace glisson::views

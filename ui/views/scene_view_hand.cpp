@@ -9,6 +9,7 @@
 #include "views/colour_map.h"
 #include "views/live_layer.h"
 #include "views/model_layer.h"
+#include "views/picture_view.h"
 #include "views/scene_view.h"
 
 namespace glisson::views {
@@ -155,6 +156,7 @@ void SceneView::paintEvent(QPaintEvent*) {
       painter.drawLine(middle - QPointF(0, 12), middle + QPointF(0, 12));
     }
   }
+  if (scene_ && !outdated_.isEmpty()) greyOut(painter, rect(), outdated_);
   if (caption_.isEmpty()) return;
   const QRectF room = QRectF(rect()).adjusted(14, 10, -14, -10);
   painter.setPen(QColor(198, 205, 214));

@@ -26,7 +26,8 @@ bool isAnswer(const retraction::Result& result);
 /// Why two runs of which one is no answer have no difference.
 void withhold(RunResult& result);
 
-/// Says so where the cells leave open on which side of the clinical line the difference at the retractor lies.
+/// Says so where the cells leave open on which side of the clinical line the difference at the retractor lies (an
+/// interval of what is uncertain speaks for itself).
 void tellOfSignificance(RunResult& result);
 
 /// Where the cells may be off by over a millimetre and a fifth of the displacement.
@@ -35,5 +36,7 @@ void tellOfDiscretisation(RunResult& result);
 /// Where linear theory was used outside its limits: which kinematics to choose and what that changes, and what to
 /// change before where the scene does not offer them. Else empty.
 std::string adviceOn(const Scene& scene, const retraction::Result& result);
+/// The same of a run: of its own stiffness, or else of the atlas.
+std::string adviceOn(const Scene& scene, const RunResult& result);
 
 }  // namespace glisson::pipeline::detail

@@ -175,6 +175,31 @@ Scene blockUnderABar() {
                     ".");
 }
 
+TEST(Significance, IsOpenWhereCellsOrIntervalReachOverTheLine) {
+  RunResult r;
+  r.difference.emplace();
+  const auto with = [&r](double at_mm, double cells_mm, std::optional<uncertainty::Interval> interval) {
+    r.difference->at_retractor_mm = at_mm;
+    r.difference->clinically_significant = at_mm >= 5.0;
+    r.discretisation.emplace().difference.emplace().at_retractor_mm = cells_mm;
+    r.uncertainty.reset();
+    if (interval) {
+      r.uncertainty.emplace().known = true;
+      r.uncertainty->spread.headline.emplace().at_retractor_mm = *interval;
+    }
+    return significanceOf(r);
+  };
+  EXPECT_EQ(with(4.2, 0.5, {}), Significance::Below);
+  EXPECT_EQ(with(4.2, 0.9, {}), Significance::Open);
+  EXPECT_EQ(with(6.1, 0.9, {}), Significance::Beyond);
+  EXPECT_EQ(with(6.1, 0.9, uncertainty::Interval{4.9, 7.6}), Significance::Open);
+  EXPECT_EQ(with(6.1, 0.9, uncertainty::Interval{5.1, 7.0}), Significance::Beyond);
+  EXPECT_EQ(with(3.0, 0.1, uncertainty::Interval{1.0, 5.2}), Significance::Open);
+  // What cannot be told of the patient says nothing.
+  r.uncertainty->known = false;
+  EXPECT_EQ(significanceOf(r), Significance::Below);
+}
+
 TEST(RigidBar, IsDrawnInContactWithBothBodiesAndPassesThroughNeither) {
   RunOptions options;
   options.discretisation = false;

@@ -36,6 +36,7 @@ CaseRecord record(double x) {
   r.outlines.polygons = {p, p};
   r.outlines.polygons[1].state = roi::PolygonState::Draft;
   r.outlines.marks = {{3, commands::SliceMark::NoLiver}, {9, commands::SliceMark::NoWave}};
+  r.outlines.made = {{commands::digestOf(p), commands::MadeBy::Proposal}};
   r.parameters.poisson = 0.4;
   r.parameters.method = Method::MovingLeastSquares;
   r.parameters.kinematics = retraction::Kinematics::Corotational;
@@ -62,6 +63,7 @@ TEST(CaseFile, ComesBackToTheBit) {
   const CaseRecord read = readCaseRecord(folder / "case.json");
   EXPECT_TRUE(test::same(read.outlines, wrote.outlines));
   EXPECT_EQ(read.outlines.marks, wrote.outlines.marks);
+  EXPECT_EQ(read.outlines.made, wrote.outlines.made);
   EXPECT_EQ(read.parameters, wrote.parameters);
   EXPECT_EQ(read.measure, wrote.measure);
   EXPECT_EQ(read.choices, wrote.choices);

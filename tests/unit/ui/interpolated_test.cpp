@@ -101,5 +101,32 @@ TEST(InterpolatedSlices, EscapeLetsGoAndDeletesNothing) {
   EXPECT_EQ(b.tool.state(), tools::ToolState::Idle);
 }
 
+TEST(InterpolatedSlices, WhatNobodyDrewIsNamedAfterItIsAcceptedAndUntilItIsCorrected) {
+  Interpolated b;
+  using commands::MadeBy;
+  for (const roi::Polygon& p : b.contours.polygons)
+    if (p.state == PolygonState::Interpolated)
+      b.contours.made.try_emplace(commands::digestOf(p), MadeBy::Interpolation);
+  EXPECT_EQ(madeSlices(b.contours, b.plane.grid).size(), 3u);
+  b.press(180, 100);
+  b.release(180, 100);
+  b.settle(b.tool.key(tools::ToolKey::Enter, b.plane));
+  EXPECT_EQ(b.count(PolygonState::Accepted, 2), 1u);
+  EXPECT_EQ(madeSlices(b.contours, b.plane.grid).count(2), 1u) << "accepted, and still drawn by nobody";
+  b.settle(b.tool.nudge({3.0, 0.0}, b.plane));
+  EXPECT_EQ(madeSlices(b.contours, b.plane.grid).count(2), 0u) << "corrected by hand";
+  b.undo.undo(b.contours);
+  EXPECT_EQ(madeSlices(b.contours, b.plane.grid).count(2), 1u) << "as it was made";
+}
+
+TEST(InterpolatedSlices, DraftsAreNamedBesideWhatCounts) {
+  Interpolated b;
+  b.contours.polygons.push_back(b.contours.polygons.front());
+  b.contours.polygons.back().state = PolygonState::Draft;
+  const OutlineCoverage c = coverageOf(b.contours, b.plane.grid);
+  EXPECT_EQ(c.drafts, (std::set<int>{0}));
+  EXPECT_EQ(c.drawn, (std::set<int>{0, 4}));
+}
+
 }  // namespace
 }  // namespace glisson::session
