@@ -15,6 +15,7 @@
 #include "pipeline/plan.h"
 #include "session/said.h"
 #include "session/session.h"
+#include "session/setup_of.h"
 
 namespace glisson::panels {
 

@@ -120,10 +120,10 @@ TEST(HowSure3D, theTubeIsSeenRoundTheVesselWhereTheAnswerPutsIt) {
   RetractionScene scene = test::retractionScene(1.6, 64);
   const SceneOptions3D options{
       .shown = Shown3D::HowSure, .view = View3D::Anterior, .width = 480, .height = 360, .decorate = false};
-  EXPECT_THROW(overlay3D(scene, options), BadArgument);
-  scene.sure.emplace();
-  scene.sure->vessel95_mm = Eigen::VectorXf::LinSpaced(scene.vesselSurface.vertices_lps_mm.cols(), 0.0F, 6.0F);
   try {
+    EXPECT_THROW(overlay3D(scene, options), BadArgument);
+    scene.sure.emplace();
+    scene.sure->vessel95_mm = Eigen::VectorXf::LinSpaced(scene.vesselSurface.vertices_lps_mm.cols(), 0.0F, 6.0F);
     const Picture bare = overlay3D(scene, options);
     test::appendTube(scene.sure->tube, {-60, 0, -30}, {-60, 0, 30}, 12.0, 12.0);
     const Picture tube = overlay3D(scene, options);
