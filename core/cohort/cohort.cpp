@@ -294,7 +294,14 @@ CohortResult runCohort(const fs::path& folder, const CohortOptions& options, con
 }
 
 bool isMadeOf(const std::string& key, const PatientFolder& patient) {
-  return prepare(patient, {}, false).key == key || prepare(patient, {}, true).key == key;
+  CohortOptions options;
+  for (const bool reports : {false, true})
+    for (const bool uncertainty : {false, true}) {
+      options.reports = reports;
+      options.uncertainty = uncertainty;
+      if (prepare(patient, {}, options).key == key) return true;
+    }
+  return false;
 }
 
 CohortResult mergeCohort(const std::vector<fs::path>& shards, const fs::path& folder, const CohortOptions& options,

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "image/distance.h"
 #include "image/morphology.h"
-#include "roi/detail/trace.h"
+#include "roi/trace.h"
 #include "roi/plane.h"
 #include "roi/polygon.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "roi/detail/trace.h"
+#include "roi/trace.h"
 
 #include <algorithm>
 #include <map>

@@ -91,7 +91,7 @@ TEST(SurePictures, TheTubeHoldsEachPlaceOfAVesselWith95Percent) {
   const Scene scene = parseScene(R"({ "schema": "glisson/scene/1",
     "geometry": { "kind": "box", "size_mm": [100, 60, 60], "cell_mm": 10 },
     "material": { "shear_kPa": 2, "poisson": 0.45 }, "supports": [ { "region": {"face":"y-"}, "kind": "fixed" } ],
-    "loads": [ { "kind": "traction", "region": {"face":"y+"}, "traction_kPa": [0, 0.3, 0] } ] })",
+    "loads": [ { "kind": "traction", "region": {"face":"y+"}, "kPa": [0, 0.3, 0] } ] })",
                                  ".");
   RunResult r = run(scene, {});
   anatomy::VesselModel vessels;
