@@ -130,6 +130,7 @@ class OutlineTools : public QObject, private glisson::test::WindowBench {
     open(path("journals"));
     QVERIFY(openPath(path("painted") + "/case.json"));
     QVERIFY(glisson::test::same(session().contours(), saved));
+    QVERIFY(openSynthetic());  // outlines of a case are not undone
   }
 
   void livewireAndSplineFollowTheClicksAndComeBackFromTheJournal() {

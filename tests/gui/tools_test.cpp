@@ -132,7 +132,7 @@ class Tools : public QObject, private glisson::test::WindowBench {
     QCOMPARE(done(dialog, "pacsSend"), QString());
     picture(dialog, "pacs-send");
     dialog->tabs()->setCurrentIndex(0);
-    write(dialog, "pacsPatientId", "*");
+    write(dialog, "pacsPatientId", "PHANTOM*");  // alone, * looks for nothing
     QCOMPARE(done(dialog, "pacsFind"), QString());
     auto* found = in<QTreeWidget>(dialog, "pacsFound");
     QCOMPARE(found->topLevelItemCount(), 1);

@@ -71,7 +71,7 @@ class Verdicts : public QObject, private glisson::test::WindowBench {
   }
 
   void whatTheProgramMadeIsNotCalledDrawn() {
-    const Eigen::Vector3d place = trustedPlace(session());
+    const Eigen::Vector3d place = glisson::test::trustedPlace(session());
     const int middle = static_cast<int>(std::lround(session().images().mri->grid.lpsToIndex(place).z()));
     for (const int k : {middle, middle + 6}) {
       mri()->setSlice(k);
@@ -98,7 +98,7 @@ class Verdicts : public QObject, private glisson::test::WindowBench {
   void theNumberShownIsThatOfTheSliceShown() {
     session().importContours(
         QString::fromStdString((folder() / "patients" / "synthetic-patient-3" / "rtstruct.dcm").string()));
-    mri()->showPoint(trustedPlace(session()));
+    mri()->showPoint(glisson::test::trustedPlace(session()));
     QTRY_VERIFY_WITH_TIMEOUT(session().statistics().pooled && session().statistics().pooled->slices.size() > 3,
                              wait_ms);
     QTRY_VERIFY(!session().statistics().reason.size());

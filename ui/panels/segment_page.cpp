@@ -3,6 +3,7 @@
 
 #include <QButtonGroup>
 #include <QComboBox>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QSettings>
@@ -71,7 +72,6 @@ void SegmentPage::makeStrip(QHBoxLayout* strip) {
     b->setAccessibleName(nameOf(command));
     b->setProperty("flat", true);
     b->setCheckable(true);
-    strip->addWidget(b);
     connect(b, &QPushButton::clicked, this, [this, command] { run(command); });
     return b;
   };
@@ -84,6 +84,16 @@ void SegmentPage::makeStrip(QHBoxLayout* strip) {
   window_ = tool("windowTool", "window", Command::WindowLevel);
   for (QPushButton* b : modes_) group->addButton(b);
   for (QPushButton* b : {ruler_, window_}) group->addButton(b);
+  // Two rows: one would make the window wider than a small screen.
+  auto* tools = new QGridLayout;
+  tools->setSpacing(2);
+  constexpr int inRow = 5;
+  int place = 0;
+  for (QAbstractButton* b : group->buttons()) {
+    tools->addWidget(b, place / inRow, place % inRow);
+    ++place;
+  }
+  strip->addLayout(tools);
   modes_.front()->setChecked(true);
   spacing_ = new QSpinBox;
   spacing_->setObjectName(QStringLiteral("freehandSpacing"));
@@ -117,6 +127,7 @@ void SegmentPage::makeStrip(QHBoxLayout* strip) {
   propose->setCheckable(false);
   auto* help = tool("helpButton", "help", Command::Help);
   help->setCheckable(false);
+  for (QPushButton* b : {link_, planesButton_, propose, help}) strip->addWidget(b);
 }
 
 void SegmentPage::connectTool() {
