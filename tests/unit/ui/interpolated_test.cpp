@@ -113,7 +113,9 @@ TEST(InterpolatedSlices, WhatNobodyDrewIsNamedAfterItIsAcceptedAndUntilItIsCorre
   b.settle(b.tool.key(tools::ToolKey::Enter, b.plane));
   EXPECT_EQ(b.count(PolygonState::Accepted, 2), 1u);
   EXPECT_EQ(madeSlices(b.contours, b.plane.grid).count(2), 1u) << "accepted, and still drawn by nobody";
-  b.settle(b.tool.nudge({3.0, 0.0}, b.plane));
+  b.press(180, 100);
+  for (int s = 1; s <= 10; ++s) b.move(180, 100 - 2 * s);
+  b.settle(b.tool.release(test::ToolBench::at(180, 80), b.plane));
   EXPECT_EQ(madeSlices(b.contours, b.plane.grid).count(2), 0u) << "corrected by hand";
   b.undo.undo(b.contours);
   EXPECT_EQ(madeSlices(b.contours, b.plane.grid).count(2), 1u) << "as it was made";
