@@ -6,9 +6,9 @@
 #include "base/error.h"
 #include "image/distance.h"
 #include "image/morphology.h"
-#include "roi/trace.h"
 #include "roi/plane.h"
 #include "roi/polygon.h"
+#include "roi/trace.h"
 
 namespace glisson::roi {
 namespace {

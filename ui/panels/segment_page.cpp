@@ -65,6 +65,19 @@ SegmentPage::SegmentPage(session::Session& session, Keys& keys, QWidget* parent)
   showTool();
 }
 
+namespace {
+
+/// One row would make the window wider than a small screen.
+QLayout* inTwoRows(const QList<QAbstractButton*>& buttons) {
+  auto* grid = new QGridLayout;
+  grid->setSpacing(2);
+  const auto inRow = static_cast<int>((buttons.size() + 1) / 2);
+  for (int i = 0; i < static_cast<int>(buttons.size()); ++i) grid->addWidget(buttons[i], i / inRow, i % inRow);
+  return grid;
+}
+
+}  // namespace
+
 void SegmentPage::makeStrip(QHBoxLayout* strip) {
   auto* group = new QButtonGroup(this);
   const auto tool = [&](const char* name, const char* iconName, Command command) {
@@ -84,16 +97,7 @@ void SegmentPage::makeStrip(QHBoxLayout* strip) {
   window_ = tool("windowTool", "window", Command::WindowLevel);
   for (QPushButton* b : modes_) group->addButton(b);
   for (QPushButton* b : {ruler_, window_}) group->addButton(b);
-  // Two rows: one would make the window wider than a small screen.
-  auto* tools = new QGridLayout;
-  tools->setSpacing(2);
-  constexpr int inRow = 5;
-  int place = 0;
-  for (QAbstractButton* b : group->buttons()) {
-    tools->addWidget(b, place / inRow, place % inRow);
-    ++place;
-  }
-  strip->addLayout(tools);
+  strip->addLayout(inTwoRows(group->buttons()));
   modes_.front()->setChecked(true);
   spacing_ = new QSpinBox;
   spacing_->setObjectName(QStringLiteral("freehandSpacing"));
