@@ -125,7 +125,7 @@ TEST(Charts, tellTheValueAtAHeightOfABox) {
   const ChartSize size{900, 600};
   // The outlier is in the second half.
   bool seen = false;
-  for (double y = 60.0; y < 560.0; y += 1.0) {
+  for (double y = 0.5; y < size.height; y += 0.5) {
     const auto place = placeAt(chart, {640.0, y}, size);
     if (!place || place->value > 31.0 || place->value < 29.0) continue;
     EXPECT_EQ(place->box, 1U);

@@ -18,10 +18,12 @@ namespace {
 RunRecord run(double at_retractor_mm, const std::string& poisson, const std::string& mri,
               const std::string& more = "") {
   return {R"({"schema": "glisson/run/1", "difference": {"mean_mm": 1.0, "at_retractor_mm": )" +
-              std::to_string(at_retractor_mm) + R"(}, "p95_strain": 0.125, "parameters": {"geometry": {"mri": "(file)"},
-              "material": {"poisson": )" +
-              poisson + more + R"(}, "loads": [{"kind": "retractor", "at_mm": [1, 2, 3]}]}, "inputs": {"mri": {"sha256": ")" +
-              mri + R"("}}})",
+              std::to_string(at_retractor_mm) +
+              R"j(}, "p95_strain": 0.125, "parameters": {"geometry": {"mri": "(file)"},
+              "material": {"poisson": )j" +
+              poisson + more +
+              R"(}, "loads": [{"kind": "retractor", "at_mm": [1, 2, 3]}]}, "inputs": {"mri": {"sha256": ")" + mri +
+              R"("}}})",
           {}};
 }
 
