@@ -11,8 +11,8 @@ namespace glisson::session {
 namespace {
 
 /// A run whose answers both converged, on cells of 4 mm.
-struct Run {
-  Run() {
+struct JudgedRun {
+  JudgedRun() {
     image::Grid grid;
     grid.size = {4, 4, 4};
     grid.spacing_mm.setConstant(4.0);
@@ -32,11 +32,11 @@ struct Run {
 };
 
 TEST(Trust, WithoutADoubtNothingIsSaid) {
-  EXPECT_TRUE(Run().doubts().empty());
+  EXPECT_TRUE(JudgedRun().doubts().empty());
 }
 
 TEST(Trust, TheAtlasIsJudgedAsTheMeasuredAnswerIs) {
-  Run run;
+  JudgedRun run;
   run.r.atlas->doubt(DiagnosticCode::CellsInsideOut, {{"cells", std::int64_t{1}}});
   const auto doubts = run.doubts();
   ASSERT_EQ(doubts.size(), 1u);
@@ -48,7 +48,7 @@ TEST(Trust, TheAtlasIsJudgedAsTheMeasuredAnswerIs) {
 }
 
 TEST(Trust, AReasonOfBothIsSaidOnce) {
-  Run run;
+  JudgedRun run;
   for (retraction::Result* answer : {&run.r.primary, &*run.r.atlas})
     answer->doubt(DiagnosticCode::CellsInsideOut, {{"cells", std::int64_t{2}}});
   ASSERT_EQ(run.doubts().size(), 1u);
@@ -60,7 +60,7 @@ TEST(Trust, AReasonOfBothIsSaidOnce) {
 }
 
 TEST(Trust, WhatRunAndAnswerBothSayIsSaidOnceWithItsStiffness) {
-  Run run;
+  JudgedRun run;
   const std::vector<std::pair<std::string, DiagnosticValue>> slip = {{"capacity_N", 5.0},
                                                                      {"capacity_travel_mm", 20.0},
                                                                      {"travel_mm", 21.0},
@@ -79,7 +79,7 @@ TEST(Trust, WhatRunAndAnswerBothSayIsSaidOnceWithItsStiffness) {
 }
 
 TEST(Trust, WarningsOfTheAtlasAreNotRepeatedAsTexts) {
-  Run run;
+  JudgedRun run;
   run.r.atlas->doubt(DiagnosticCode::StrainLocallyLarge, {{"percent", 2.0}});
   run.r.warnings = {"atlas: " + run.r.atlas->doubts.texts().front(), "something without a code"};
   EXPECT_EQ(run.count("strains by more than"), 1u);
@@ -87,7 +87,7 @@ TEST(Trust, WarningsOfTheAtlasAreNotRepeatedAsTexts) {
 }
 
 TEST(Trust, ErrorsComeFirst) {
-  Run run;
+  JudgedRun run;
   run.r.primary.doubt(DiagnosticCode::StrainLocallyLarge, {{"percent", 2.0}});
   run.r.atlas->doubt(DiagnosticCode::CellsInsideOut, {{"cells", std::int64_t{1}}});
   const auto doubts = run.doubts();
@@ -97,7 +97,7 @@ TEST(Trust, ErrorsComeFirst) {
 }
 
 TEST(Remedies, HalveTheCellsDownToWhatTheModelPageOffers) {
-  Run run;
+  JudgedRun run;
   const auto halved = remedied(Remedy::SmallerCells, Parameters{}, run.r);
   ASSERT_TRUE(halved);
   EXPECT_DOUBLE_EQ(halved->cell_mm, 2.0);
@@ -106,7 +106,7 @@ TEST(Remedies, HalveTheCellsDownToWhatTheModelPageOffers) {
 }
 
 TEST(Remedies, LargeDeformationTakesAModelThatOffersIt) {
-  Run run;
+  JudgedRun run;
   EXPECT_FALSE(remedied(Remedy::LargeDeformation, Parameters{}, run.r)) << "the run was in large deformation";
   run.r.primary.kinematics = retraction::Kinematics::Linear;
   Parameters meshfree;
@@ -119,7 +119,7 @@ TEST(Remedies, LargeDeformationTakesAModelThatOffersIt) {
 }
 
 TEST(Remedies, AForceThatBothLiversBear) {
-  Run run;
+  JudgedRun run;
   EXPECT_FALSE(remedied(Remedy::BorneForce, Parameters{}, run.r)) << "nothing slipped";
   for (auto [answer, capacity_N] : {std::pair(&run.r.primary, 8.0), std::pair(&*run.r.atlas, 5.0)}) {
     answer->contact.emplace();
