@@ -10,14 +10,10 @@
 namespace glisson::cli {
 namespace {
 
-struct Arguments {
+struct AgreeArguments {
   pipeline::ReaderRequest request;
   std::string quantity, unit;
 };
-
-Json orNull(double v) {
-  return std::isfinite(v) ? Json(v) : Json(nullptr);
-}
 
 Json toJson(const roi::Agreement& a) {
   return {{"dice", a.dice},
@@ -35,18 +31,18 @@ Json toJson(const elastography::Correlation& c) {
   return {{"value", orNull(c.value)}, {"low", orNull(c.low)}, {"high", orNull(c.high)}};
 }
 
-Json toJson(const elastography::Interval& i) {
+Json withValue(const elastography::Interval& i) {
   return {{"value", orNull(i.value)}, {"se", orNull(i.se)}, {"ci95", {orNull(i.low), orNull(i.high)}}};
 }
 
 /// Keys as in the agreement itself.
 Json toJson(const pipeline::ReaderIntervals& i) {
   Json j = {{"slices", i.slices},
-            {"dice", toJson(i.dice)},
-            {"jaccard", toJson(i.jaccard)},
-            {"volume_difference_mL", toJson(i.volumeDifference_mL)},
-            {"volume_difference_percent", toJson(i.volumeDifference_percent)}};
-  if (i.stiffnessDifference_kPa) j["stiffness_difference_kPa"] = toJson(*i.stiffnessDifference_kPa);
+            {"dice", withValue(i.dice)},
+            {"jaccard", withValue(i.jaccard)},
+            {"volume_difference_mL", withValue(i.volumeDifference_mL)},
+            {"volume_difference_percent", withValue(i.volumeDifference_percent)}};
+  if (i.stiffnessDifference_kPa) j["stiffness_difference_kPa"] = withValue(*i.stiffnessDifference_kPa);
   return j;
 }
 
@@ -68,7 +64,7 @@ Json overCases(const std::optional<elastography::ReaderReliability>& reliability
   return j;
 }
 
-int agree(Arguments a, const Context& context) {
+int agree(AgreeArguments a, const Context& context) {
   if (!a.quantity.empty()) a.request.meaning.quantity = stiffnessQuantityNames.named(a.quantity);
   if (!a.unit.empty()) a.request.meaning.unit = a.unit;
   const pipeline::ReaderStudy study = pipeline::compareReaders(a.request, context.progress());
@@ -80,7 +76,7 @@ int agree(Arguments a, const Context& context) {
     Json one = {{"case", c.name}, {"volume_mL", c.volume_mL}};
     if (!c.stiffness_kPa.empty()) one["mean_stiffness_kPa"] = c.stiffness_kPa;
     for (const elastography::Interval& mean : c.stiffnessMean_kPa)
-      one["mean_stiffness_uncertainty"].push_back(toJson(mean));
+      one["mean_stiffness_uncertainty"].push_back(withValue(mean));
     for (std::size_t r = 0; r < c.agreement.size(); ++r) {
       const roi::Agreement& g = c.agreement[r];
       one["with_first"].push_back(toJson(g));
@@ -113,7 +109,7 @@ int agree(Arguments a, const Context& context) {
 
 void addAgree(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("agree", "how well readers agree: overlap, distances, ICC, limits of agreement");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<AgreeArguments>();
   verb->add_option("readers", a->request.readers, "a region each, or a folder each with one file per case")
       ->type_name(value::fileOrFolder)
       ->required()

@@ -10,7 +10,7 @@
 namespace glisson::cli {
 namespace {
 
-struct Arguments {
+struct CohortArguments {
   std::filesystem::path patients;
   cohort::CohortOptions options;
   std::filesystem::path scene;
@@ -85,7 +85,7 @@ int report(const Context& context, const cohort::CohortResult& r, const cohort::
   return PartialBatch;
 }
 
-void addShared(CLI::App* verb, const std::shared_ptr<Arguments>& a) {
+void addShared(CLI::App* verb, const std::shared_ptr<CohortArguments>& a) {
   verb->add_option("--jobs", a->options.jobs, "patients at a time, 0 = what cores and memory allow")
       ->check(CLI::Range(0, 1024));
   verb->add_option("--scene", a->scene, "scene whose geometry is replaced by each patient's")->type_name(value::file);
@@ -93,7 +93,7 @@ void addShared(CLI::App* verb, const std::shared_ptr<Arguments>& a) {
   verb->add_flag("--no-sensitivity", a->noSensitivity, "leave out the chosen four under other assumptions");
 }
 
-cohort::CohortOptions prepared(const Arguments& a, const Context& context) {
+cohort::CohortOptions prepared(const CohortArguments& a, const Context& context) {
   cohort::CohortOptions options = a.options;
   options.output = context.output.empty() ? std::filesystem::path("glisson-cohort") : context.output;
   options.executable = std::filesystem::read_symlink("/proc/self/exe");
@@ -108,7 +108,7 @@ void addCohort(CLI::App& app, Context& context) {
   CLI::App* verb =
       app.add_subcommand("cohort", "the paper's studies over a folder of patients; resumes where it stopped");
   verb->fallthrough();
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<CohortArguments>();
   verb->add_option("patients", a->patients, "folder with one folder per patient")->type_name(value::folder);
   verb->add_option("--shard", a->shard, "i/n: only every n-th patient, for array jobs; then cohort merge");
   verb->add_flag("--uncertainty", a->options.uncertainty,
@@ -118,7 +118,7 @@ void addCohort(CLI::App& app, Context& context) {
   addShared(verb, a);
 
   CLI::App* merge = verb->add_subcommand("merge", "put the results of shards together and summarise them");
-  auto m = std::make_shared<Arguments>();
+  auto m = std::make_shared<CohortArguments>();
   merge->add_option("shards", m->shards, "output folders of all shards")->type_name(value::folder)->required();
   merge
       ->add_option("--data", m->patients, "the patients again, for the overlays and the sensitivity of the chosen four")

@@ -12,7 +12,7 @@
 namespace glisson::cli {
 namespace {
 
-struct Arguments {
+struct ConvertArguments {
   std::filesystem::path in, out;
   std::string series;
 };
@@ -69,7 +69,7 @@ image::ScalarVolume read(const dicom::Series& series, Diagnostics& said, const P
 
 void addConvert(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("convert", "a series or volume to NIfTI, NRRD or MetaImage, geometry kept");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ConvertArguments>();
   verb->add_option("in", a->in, "DICOM folder or file, or a volume")->type_name(value::folderOrFile)->required();
   verb->add_option("out", a->out, "file to write: .nii, .nii.gz, .nrrd or .mha")->type_name(value::file)->required();
   verb->add_option("--series", a->series, "series to take: its UID, number or role (stiffness, magnitude, ...)");

@@ -8,7 +8,7 @@
 namespace glisson::cli {
 namespace {
 
-struct Arguments {
+struct DeidentifyArguments {
   std::filesystem::path in, out, key;
   dicom::DeidentifyOptions options;
 };
@@ -18,7 +18,7 @@ struct Arguments {
 void addDeidentify(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand(
       "deidentify", "copies of DICOM files without what identifies the patient (PS3.15 basic profile, and stricter)");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<DeidentifyArguments>();
   verb->add_option("in", a->in, "DICOM folder or file")->type_name(value::folderOrFile)->required();
   verb->add_option("out", a->out, "folder for the copies, new or empty")->type_name(value::folder)->required();
   verb->add_option("--key", a->key, "key file of the project, made where it is missing; keep it apart from results")

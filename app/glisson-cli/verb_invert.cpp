@@ -12,7 +12,7 @@
 namespace glisson::cli {
 namespace {
 
-struct Arguments {
+struct InvertArguments {
   pipeline::InvertRequest request;
   std::vector<double> encodings;
   std::string filter = "auto", unwrap = "auto";
@@ -20,7 +20,6 @@ struct Arguments {
 };
 
 Json statistics(const elastography::Statistics& s) {
-  const auto orNull = [](double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); };
   return {
       {"n", s.n}, {"mean_kPa", orNull(s.mean_kPa)}, {"median_kPa", orNull(s.median_kPa)}, {"sd_kPa", orNull(s.sd_kPa)}};
 }
@@ -36,7 +35,7 @@ const char* nameOf(inversion::BulkFilter filter) {
 }
 
 /// The request with what was given in words and lists.
-pipeline::InvertRequest requestOf(const Arguments& a) {
+pipeline::InvertRequest requestOf(const InvertArguments& a) {
   pipeline::InvertRequest request = a.request;
   if (a.encodings.size() % 3 != 0) throw BadInput("an encoding vector has three numbers: x y z");
   for (std::size_t e = 0; e + 2 < a.encodings.size(); e += 3)
@@ -52,7 +51,7 @@ pipeline::InvertRequest requestOf(const Arguments& a) {
   return request;
 }
 
-int invert(const Arguments& a, const Context& context) {
+int invert(const InvertArguments& a, const Context& context) {
   const pipeline::InvertedPhases inverted = pipeline::invertPhases(requestOf(a), context.progress());
   const inversion::Inversion& r = inverted.inversion;
   Json j = {{"frequency_Hz", r.used.frequency_Hz}, {"offsets", inverted.offsets}, {"phase_scale", inverted.scale}};
@@ -97,7 +96,7 @@ int invert(const Arguments& a, const Context& context) {
 
 void addInvert(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("invert", "raw phase images of an elastography acquisition to stiffness");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<InvertArguments>();
   verb->add_option("--phase", a->request.phases.paths,
                    "phase images: volumes in order of direction and time, or folders")
       ->type_name(value::folderOrVolume)

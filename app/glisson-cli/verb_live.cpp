@@ -13,7 +13,7 @@
 namespace glisson::cli {
 namespace {
 
-struct Arguments {
+struct LiveArguments {
   std::filesystem::path scene, run;
   live::ServerOptions options;
   bool headless = false;
@@ -164,7 +164,7 @@ std::string listening(const live::ServerOptions& options, int port, std::size_t 
   return text;
 }
 
-int serveScene(const Arguments& a, const Context& context) {
+int serveScene(const LiveArguments& a, const Context& context) {
   if (a.headless && a.options.frames < 1)
     throw BadInput("--headless computes frames without a client: give their number with --frames");
   const Progress progress = context.progress();
@@ -195,7 +195,7 @@ int serveScene(const Arguments& a, const Context& context) {
 
 void addLive(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("live", "stream the retraction over OpenIGTLink; it follows the tool's pose");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<LiveArguments>();
   verb->add_option("scene", a->scene, "scene.json or case.json with a retractor")->type_name(value::file)->required();
   verb->add_option("--port", a->options.port, "0 = any free one")->check(CLI::Range(0, 65535));
   verb->add_option("--bind", a->options.bind, "address to listen on; 0.0.0.0 = every network of this computer");

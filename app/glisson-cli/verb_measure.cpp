@@ -13,15 +13,11 @@
 namespace glisson::cli {
 namespace {
 
-struct Arguments {
+struct MeasureArguments {
   pipeline::MeasureRequest request;
   std::string quantity, unit;
   std::vector<std::string> roles;
 };
-
-Json orNull(double v) {
-  return std::isfinite(v) ? Json(v) : Json(nullptr);
-}
 
 Json toJson(const elastography::Statistics& s) {
   Json j;
@@ -125,7 +121,7 @@ std::string inWords(const elastography::Measurement& m, const std::vector<std::s
   return text.str();
 }
 
-int measure(const Arguments& a, const Context& context) {
+int measure(const MeasureArguments& a, const Context& context) {
   pipeline::MeasureRequest request = a.request;
   if (!a.quantity.empty()) request.quantity = stiffnessQuantityNames.named(a.quantity);
   if (!a.unit.empty()) request.unit = a.unit;
@@ -176,7 +172,7 @@ int measure(const Arguments& a, const Context& context) {
 
 void addMeasure(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("measure", "stiffness statistics of a region of interest, per slice and pooled");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<MeasureArguments>();
   verb->add_option("--mre", a->request.mre, "elastogram: DICOM folder, DICOMDIR or ZIP archive, or a stiffness map")
       ->type_name(value::folderOrVolume)
       ->required();

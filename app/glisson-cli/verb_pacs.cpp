@@ -15,7 +15,7 @@
 namespace glisson::cli {
 namespace {
 
-struct Arguments {
+struct PacsArguments {
   pacs::Node node;
   pacs::Query query;
   std::string date;
@@ -67,7 +67,7 @@ std::string toText(const pacs::Received& r) {
   return text.str();
 }
 
-int echo(const Arguments& a, const Context& context) {
+int echo(const PacsArguments& a, const Context& context) {
   const double seconds = pacs::echo(a.node, context.progress());
   std::ostringstream text;
   text << a.node.calledTitle << " answers after " << static_cast<int>(1000.0 * seconds) << " ms\n";
@@ -75,7 +75,7 @@ int echo(const Arguments& a, const Context& context) {
   return Ok;
 }
 
-int find(Arguments a, const Context& context) {
+int find(PacsArguments a, const Context& context) {
   if (!a.date.empty()) a.query.studyDate = pacs::dateRange(a.date);
   const pacs::Found found = pacs::find(a.node, a.query, context.progress());
   Json j;
@@ -116,7 +116,7 @@ int find(Arguments a, const Context& context) {
   return Ok;
 }
 
-int get(Arguments a, const Context& context) {
+int get(PacsArguments a, const Context& context) {
   limitProcess();
   a.get.folder = context.output;
   const pacs::Retrieved r = pacs::retrieve(a.node, a.get, context.progress());
@@ -132,7 +132,7 @@ int get(Arguments a, const Context& context) {
   return r.complete ? Ok : PartialBatch;
 }
 
-int receive(Arguments a, const Context& context) {
+int receive(PacsArguments a, const Context& context) {
   limitProcess();
   a.receive.folder = context.output;
   if (a.receiveCount > 0) a.receive.count = a.receiveCount;
@@ -154,7 +154,7 @@ int receive(Arguments a, const Context& context) {
   return all ? Ok : PartialBatch;
 }
 
-int send(const Arguments& a, const Context& context) {
+int send(const PacsArguments& a, const Context& context) {
   limitProcess();
   const pacs::Sent s = pacs::send(a.node, a.files, context.progress());
   Json j{{"objects", s.objects}, {"bytes", s.bytes}, {"failed", Json::array()}};
@@ -168,8 +168,8 @@ int send(const Arguments& a, const Context& context) {
   return s.failed.empty() ? Ok : s.objects == 0 ? Failed : PartialBatch;
 }
 
-CLI::App* add(CLI::App& verb, Context& context, const std::shared_ptr<Arguments>& a, const char* name, const char* help,
-              int (*act)(Arguments, const Context&)) {
+CLI::App* add(CLI::App& verb, Context& context, const std::shared_ptr<PacsArguments>& a, const char* name,
+              const char* help, int (*act)(PacsArguments, const Context&)) {
   CLI::App* sub = verb.add_subcommand(name, help);
   sub->callback([&context, a, act] { context.action = [&context, a, act] { return act(*a, context); }; });
   return sub;
@@ -189,10 +189,10 @@ void addPacs(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand(
       "pacs", "query, fetch, receive and send over a DICOM network (not encrypted: for a trusted network)");
   verb->require_subcommand(1);
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<PacsArguments>();
 
   addNode(*add(*verb, context, a, "echo", "whether the server answers and knows us (C-ECHO)",
-               [](Arguments x, const Context& c) { return echo(x, c); }),
+               [](PacsArguments x, const Context& c) { return echo(x, c); }),
           a->node);
 
   CLI::App* sub = add(*verb, context, a, "find", "list studies and series (C-FIND, study root)", find);
@@ -230,7 +230,7 @@ void addPacs(CLI::App& app, Context& context) {
       ->capture_default_str();
 
   sub = add(*verb, context, a, "send", "send DICOM files and folders to a server (C-STORE)",
-            [](Arguments x, const Context& c) { return send(x, c); });
+            [](PacsArguments x, const Context& c) { return send(x, c); });
   addNode(*sub, a->node);
   sub->add_option("files", a->files, "files and folders")->type_name(value::fileOrFolder)->required();
 }

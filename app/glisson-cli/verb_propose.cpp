@@ -10,14 +10,14 @@
 namespace glisson::cli {
 namespace {
 
-struct Arguments {
+struct ProposeArguments {
   std::filesystem::path image;
   std::vector<double> seed;
   bool index = false;
   roi::ProposalOptions options;
 };
 
-int propose(const Arguments& a, const Context& context) {
+int propose(const ProposeArguments& a, const Context& context) {
   if (context.output.empty()) throw BadInput("say where the proposal goes: --output roi.json, or a mask file");
   const Eigen::Vector3d seed(a.seed[0], a.seed[1], a.seed[2]);
   const pipeline::OutlineProposal proposed =
@@ -44,7 +44,7 @@ int propose(const Arguments& a, const Context& context) {
 
 void addPropose(CLI::App& app, Context& context) {
   CLI::App* verb = app.add_subcommand("propose", "a first outline of an organ from one point inside it, to correct");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ProposeArguments>();
   verb->add_option("--image", a->image, "DICOM folder, or a volume")->type_name(value::folderOrVolume)->required();
   verb->add_option("--seed", a->seed, "x,y,z inside the organ, LPS mm")
       ->type_name(value::point)

@@ -14,7 +14,7 @@
 namespace glisson::cli {
 namespace {
 
-struct Arguments {
+struct ScanArguments {
   std::filesystem::path path, thumbnails;
   std::vector<std::string> roles;
 };
@@ -108,7 +108,7 @@ void addThumbnail(const dicom::Series& s, std::size_t place, const std::filesyst
   j["thumbnail"] = file;
 }
 
-int scan(const Arguments& a, const Context& context) {
+int scan(const ScanArguments& a, const Context& context) {
   dicom::ScanResult found = dicom::scan(a.path, context.progress());
   const dicom::RoleOverrides roles = rolesFrom(a.roles);
   for (const std::string& missing : dicom::applyRoles(found, roles))
@@ -166,7 +166,7 @@ int scan(const Arguments& a, const Context& context) {
 void addScan(CLI::App& app, Context& context) {
   CLI::App* verb =
       app.add_subcommand("scan", "list the series of a folder: roles with reasons, geometry, warnings, skipped files");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ScanArguments>();
   verb->add_option("path", a->path, "DICOM folder or file, DICOMDIR or ZIP archive")
       ->type_name(value::folderOrFile)
       ->required();

@@ -22,7 +22,7 @@ int sweep(const study::StabilityOptions& options, const Context& context) {
                           {"expectation", c.expectation},
                           {"verdict", c.verdict},
                           {"iterations", c.iterations},
-                          {"residual", std::isfinite(c.residual) ? Json(c.residual) : Json(nullptr)},
+                          {"residual", orNull(c.residual)},
                           {"detail", c.detail},
                           {"seconds", c.seconds}});
     ++count[c.verdict];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,11 @@
 namespace glisson::cli {
 
 using Json = nlohmann::ordered_json;
+
+/// A number, or null where it does not exist.
+inline Json orNull(double v) {
+  return std::isfinite(v) ? Json(v) : Json(nullptr);
+}
 
 /// Exit codes of the command line.
 enum ExitCode {

@@ -5,6 +5,7 @@
 #include <QHBoxLayout>
 
 #include "panels/form.h"
+#include "panels/theme.h"
 #include "session/model_preview.h"
 #include "session/session.h"
 #include "views/scene_view.h"
@@ -12,8 +13,6 @@
 namespace glisson::panels {
 
 namespace {
-
-const QColor fixedColour(255, 150, 40), hoistColour(120, 240, 150);
 
 /// What the numerics call the place of a support, as a reader would.
 QString placeInWords(const std::string& name) {
@@ -124,7 +123,7 @@ void ModelStage::show_() {
     views::Mark held{.id = 100 + number,
                      .at_lps = support.points_lps.rowwise().mean(),
                      .shape = views::Mark::Shape::Square,
-                     .colour = fixedColour};
+                     .colour = holdColour};
     held.text = tr("held %1").arg(++number);
     marks.push_back(held);
   }

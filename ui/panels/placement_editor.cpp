@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "panels/form.h"
+#include "panels/theme.h"
 #include "session/model_preview.h"
 #include "session/session.h"
 #include "tools/scene_camera.h"
@@ -19,7 +20,7 @@ namespace glisson::panels {
 namespace {
 
 constexpr double hoistArrow_mm = 60.0;
-const QColor barColour(205, 211, 218), hoistColour(120, 240, 150), holdColour(255, 150, 40);
+const QColor barColour(205, 211, 218);
 
 QString place(const Eigen::Vector3d& p) {
   const auto one = [](double v, QChar more, QChar less) {

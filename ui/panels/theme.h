@@ -25,4 +25,7 @@ QColor good();
 QColor caution();
 QColor bad();
 
+/// Marks in slices and in the 3-D scene: the direction of the hoist, what holds the liver.
+inline constexpr QColor hoistColour(120, 240, 150), holdColour(255, 150, 40);
+
 }  // namespace glisson::panels
