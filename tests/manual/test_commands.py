@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every command printed in the manual runs, page by page in the order of the manual, in one folder with nothing but the clone's
-resources/ in it. A page may use what the tutorial made. Blocks marked `sh pacs` need a DICOM server, which is started here."""
+"""Every command printed in README.md, in the rooms' README files and in the manual runs, in this order, in one folder with nothing but the
+clone's resources/ in it. A page may use what the README and the tutorial made; what they print alike runs once. Blocks marked `sh pacs`
+need a DICOM server, which is started here."""
 import contextlib
 import json
 import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
+import time
 import unittest
 
 from support import CLI, ROOT
@@ -24,9 +27,36 @@ def pages():
     return [line.strip() for line in (MANUAL / "pages.txt").read_text(encoding="utf-8").splitlines() if line.strip().endswith(".md")]
 
 
-def blocks(page):
-    """(needs an archive, commands) of the ```sh blocks of a page; ```text blocks are not run."""
-    return [(bool(kind), text) for kind, text in BLOCK.findall((MANUAL / page).read_text(encoding="utf-8"))]
+def documents():
+    """README files first: the rooms' and the packaging's stand alone as well."""
+    readmes = [ROOT / "README.md", *sorted(p for room in ("core", "ui", "packaging") for p in (ROOT / room).rglob("README.md"))]
+    return readmes + [MANUAL / page for page in pages()]
+
+
+def blocks(document):
+    """(needs an archive, commands) of the ```sh blocks of a document; ```text blocks are not run."""
+    return [(bool(kind), text) for kind, text in BLOCK.findall(document.read_text(encoding="utf-8"))]
+
+
+def commands(text):
+    """The commands of a block one by one if each stands in a line of its own, else the block."""
+    lines = [line.split("  #")[0].strip() for line in text.splitlines()]
+    alone = all(re.match(r"(glisson-cli|packaging/|git|cd|cp|ls|cat|grep|head|python3 resources/)\S* ?", line) and line.count('"') % 2 == 0
+                and not line.endswith("\\") for line in lines if line)
+    return [line for line in lines if line] if alone else [text]
+
+
+def runs_elsewhere(command):
+    """Set-up is what started this test, and the examples in Python have a test of their own, tests/python: such a script is there."""
+    if not re.match(r"packaging/|git clone|cd |python3 resources/examples/python/", command):
+        return False
+    script = re.match(r"(?:python3 )?((?:packaging|resources)/\S+)", command)
+    if script and command.startswith("packaging/"):
+        assert os.access(ROOT / script[1], os.X_OK), command
+        subprocess.run(["bash", "-n", ROOT / script[1]], check=True)
+    elif script:
+        assert (ROOT / script[1]).is_file(), command
+    return True
 
 
 @contextlib.contextmanager
@@ -52,7 +82,7 @@ def archive(folder):
 
 class Commands(unittest.TestCase):
     def test_every_printed_command_runs(self):
-        ran, done = 0, set()
+        done = set()
         with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as elsewhere, archive(elsewhere) as port:
             folder = pathlib.Path(folder)
             os.symlink(ROOT / "resources", folder / "resources")
@@ -62,20 +92,23 @@ class Commands(unittest.TestCase):
             # Debian's own interpreter, for which the module is built.
             os.symlink("/usr/bin/python3", bin_folder / "python3")
             env = {**os.environ, "PATH": f"{bin_folder}:{os.environ['PATH']}", "PYTHONPATH": os.environ["GLISSON_BUILD"] + "/python"}
-            for page in pages():
-                for needs_archive, text in blocks(page):
-                    # A block that another page has printed before (the tutorial's translation) has run already.
-                    if text in done or (needs_archive and port is None) or (page == "task-python.md" and not MODULE.exists()):
+            for document in documents():
+                for needs_archive, text in blocks(document):
+                    if (needs_archive and port is None) or (document.name == "task-python.md" and not MODULE.exists()):
                         continue
-                    done.add(text)
-                    script = text.replace(f"--port {PRINTED_PORT}", f"--port {port}") if needs_archive else text
-                    with self.subTest(page=page, commands=text):
-                        result = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=folder, env=env, capture_output=True,
-                                                text=True)
-                        self.assertEqual(result.returncode, 0, f"{page}: {text}\n{result.stderr[-600:]}")
-                        ran += 1
+                    for command in commands(text):
+                        if command in done or runs_elsewhere(command):
+                            continue
+                        done.add(command)
+                        script = command.replace(f"--port {PRINTED_PORT}", f"--port {port}") if needs_archive else command
+                        with self.subTest(document=document.name, command=command):
+                            start = time.monotonic()
+                            result = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=folder, env=env, capture_output=True,
+                                                    text=True)
+                            self.assertEqual(result.returncode, 0, f"{document.name}: {command}\n{result.stderr[-600:]}")
+                            print(f"{time.monotonic() - start:6.1f} s  {command.splitlines()[0]}", file=sys.stderr)
             self.check_figures(folder)
-        self.assertGreater(ran, 25)
+        self.assertGreater(len(done), 40)
 
     def check_figures(self, folder):
         """The figures that the tutorial tells about its patient."""
@@ -93,7 +126,7 @@ class Commands(unittest.TestCase):
             self.assertIn(line, (MANUAL / page).read_text(encoding="utf-8"))
 
     def test_translation_prints_the_same_commands(self):
-        self.assertEqual(blocks("tutorial.md"), blocks("tutorial.de.md"))
+        self.assertEqual(blocks(MANUAL / "tutorial.md"), blocks(MANUAL / "tutorial.de.md"))
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ class Examples(unittest.TestCase):
                          ["01_patient.py", "02_parameter_study.py", "03_cohort_statistics.py"])
         for path in EXAMPLES.glob("*.py"):
             text = path.read_text(encoding="utf-8")
-            self.assertTrue(text.startswith("# %% [markdown]\n# # "), path.name)
+            self.assertTrue(text.startswith("# SPDX-License-Identifier: GPL-3.0-or-later\n\n# %% [markdown]\n# # "), path.name)
             self.assertGreater(text.count("\n# %%\n"), 3, path.name)
 
 
