@@ -26,7 +26,7 @@ struct Patient {
   PatientFiles files;
   std::string scene;    ///< JSON; empty where it was refused
   std::string refused;  ///< why
-  std::string key;
+  std::string key;      ///< digest of the files and, once asked for with options, of the scene and the program
 };
 
 /// The scene, asked how sure its answer is.
@@ -36,16 +36,14 @@ std::string withUncertainty(const std::string& scene) {
   return j.dump(2);
 }
 
-Patient prepare(const PatientFolder& place, const std::optional<std::string>& sceneTemplate,
-                const CohortOptions& options) {
+/// What lies in a patient's folder; `key` is that of its files alone.
+Patient readPatient(const PatientFolder& place, const std::optional<std::string>& sceneTemplate) {
   Patient p;
   p.place = place;
-  std::string all;
   try {
-    all = digestOfFolder(place.folder);
+    p.key = digestOfFolder(place.folder);
     p.files = findFiles(place.folder);
     p.scene = sceneOf(place.folder, sceneTemplate);
-    if (options.uncertainty) p.scene = withUncertainty(p.scene);
     if (!fs::is_regular_file(place.folder / "scene.json") && dicom::scan(place.folder).series.empty())
       throw BadInput(
           "no DICOM image was found; images in other formats need a scene.json in the patient's folder that names the "
@@ -54,7 +52,19 @@ Patient prepare(const PatientFolder& place, const std::optional<std::string>& sc
     p.scene.clear();
     p.refused = detail::anonymous(e.what(), place.folder, place.id);
   }
-  all += (p.scene.empty() ? "" : withoutPaths(p.scene)) + (sceneTemplate ? *sceneTemplate : "") + version();
+  return p;
+}
+
+/// The patient as the options have it run, with the key of that.
+Patient asAsked(Patient p, const std::optional<std::string>& sceneTemplate, const CohortOptions& options) {
+  try {
+    if (options.uncertainty && !p.scene.empty()) p.scene = withUncertainty(p.scene);
+  } catch (const BadInput& e) {
+    p.scene.clear();
+    p.refused = detail::anonymous(e.what(), p.place.folder, p.place.id);
+  }
+  std::string all =
+      p.key + (p.scene.empty() ? "" : withoutPaths(p.scene)) + (sceneTemplate ? *sceneTemplate : "") + version();
   // A report compares vessels, whose numbers are then in the record: one cohort holds records of one kind.
   if (options.reports) all += "reports";
   p.key = sha256(all.data(), all.size());
@@ -268,7 +278,7 @@ CohortResult runCohort(const fs::path& folder, const CohortOptions& options, con
   for (const PatientFolder& place : all) {
     if ((place.number - 1) % options.shards != options.shard - 1) continue;
     progress.report(0.05 * place.number / static_cast<double>(all.size()), "reading " + place.id);
-    patients.push_back(prepare(place, sceneTemplate, options));
+    patients.push_back(asAsked(readPatient(place, sceneTemplate), sceneTemplate, options));
   }
   CohortResult result;
   const bool whole = options.shards == 1;
@@ -294,12 +304,13 @@ CohortResult runCohort(const fs::path& folder, const CohortOptions& options, con
 }
 
 bool isMadeOf(const std::string& key, const PatientFolder& patient) {
+  const Patient read = readPatient(patient, {});
   CohortOptions options;
   for (const bool reports : {false, true})
     for (const bool uncertainty : {false, true}) {
       options.reports = reports;
       options.uncertainty = uncertainty;
-      if (prepare(patient, {}, options).key == key) return true;
+      if (asAsked(read, {}, options).key == key) return true;
     }
   return false;
 }

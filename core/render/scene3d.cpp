@@ -122,7 +122,7 @@ void Picture3D::answers() {
     legend.push_back({colour_.atlas, "Atlas stiffness"});
     legend.push_back({colour_.agree, "agree"});
   }
-  legend.push_back({{150, 158, 168}, "liver at rest"});
+  legend.push_back({Rgb{150, 158, 168}, "liver at rest"});
   if (scene_.bar)
     legend.push_back({steelGrey, scene_.bar->atlas ? "bar: " + scene_.stiffness + " steel, atlas glass" : "bar"});
   else if (scene_.retractorPoint_lps_mm)
@@ -213,8 +213,7 @@ void Picture3D::pressure() {
   std::vector<LegendRow> legend{
       {own, "way of the bar, " + (ofMre ? scene_.stiffness : std::string("atlas")) + " stiffness"},
       {pressureColour(0.9), "contact: " + inWords(contact.force_N, 1, "N along the hoist,")},
-      {pressureColour(0.9),
-       inWords(contact.resultant_N, 1, "N in all, on ") + inWords(1e-2 * contact.area_mm2, 1, "cm²")},
+      {std::nullopt, inWords(contact.resultant_N, 1, "N in all, on ") + inWords(1e-2 * contact.area_mm2, 1, "cm²")},
       {pressureColour(0.0), "liver, retracted"},
       {steelGrey, "bar (see-through)"}};
   finish(std::move(legend));

@@ -142,7 +142,7 @@ void Stage::drawText(const Words& words, std::vector<LegendRow> legend, double t
   const double x = font_px_ / width_;
   if (arrows_ > 0) legend.push_back({colours::light, std::to_string(arrows_) + " places, to scale"});
   for (const LegendRow& row : legend) {
-    add(screenSwatch(x, y, side / width_, side / height_, row.colour));
+    if (row.colour) add(screenSwatch(x, y, side / width_, side / height_, *row.colour));
     add(screenText(x + 1.7 * font_px_ / width_, y + 0.1 * font_px_ / height_, row.text, colours::light, font_px_,
                    false));
     y -= lineHeight;

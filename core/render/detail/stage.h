@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ Rgb mixed(Rgb a, Rgb b, double t);
 
 /// A line of the legend.
 struct LegendRow {
-  Rgb colour;
+  std::optional<Rgb> colour;  ///< none: the text goes on with that of the row above
   std::string text;
 };
 
