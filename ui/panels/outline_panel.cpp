@@ -55,7 +55,7 @@ void OutlinePanel::makeTools(QVBoxLayout* side) {
   side->addWidget(labelled(tr("Outline the liver"), "heading"));
   stateText_ = labelled({}, "faint");
   stateText_->setObjectName(QStringLiteral("toolState"));
-  stateText_->setMinimumHeight(50);
+  stateText_->setMinimumHeight(66);
   stateText_->setAlignment(Qt::AlignTop);
   side->addWidget(stateText_);
   auto* row = new QHBoxLayout;

@@ -161,7 +161,10 @@ void PacsDialog::show_(const pacs::Found& found) {
       child->setData(0, seriesUid, QString::fromStdString(series.uid));
     }
   }
+  // The rows of series are unfolded later: their numbers ask for the width too.
+  found_->expandAll();
   for (const int n : {0, 1, 3, 4, 5}) found_->resizeColumnToContents(n);
+  found_->collapseAll();
   if (found.studies.empty())
     say(tr("The server has nothing of that kind."));
   else if (found.truncated)

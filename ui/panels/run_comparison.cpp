@@ -147,6 +147,8 @@ void RunComparison::show_() {
 
 void RunComparison::showFigures(const session::RunsBeside& both) {
   figures_->setHeaderLabels({tr("Figure"), first_->currentText(), second_->currentText(), tr("Difference")});
+  for (const int column : {1, 2, 3})
+    figures_->headerItem()->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
   for (const session::FigureBeside& f : both.figures) {
     auto* row = new QTreeWidgetItem(figures_, {QCoreApplication::translate("figures", f.words), shown(f.first, f),
                                                shown(f.second, f), shown(f.difference(), f, true)});

@@ -85,6 +85,7 @@ void SegmentPage::makeStrip(QHBoxLayout* strip) {
     b->setAccessibleName(nameOf(command));
     b->setProperty("flat", true);
     b->setCheckable(true);
+    b->setMinimumHeight(28);
     connect(b, &QPushButton::clicked, this, [this, command] { run(command); });
     return b;
   };

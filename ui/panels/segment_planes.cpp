@@ -35,8 +35,9 @@ void SegmentPage::makeViews() {
   row->setContentsMargins(6, 4, 6, 4);
   row->setSpacing(2);
   makeStrip(row);
-  strip->setFixedHeight(42);
-  layers_->setFixedHeight(42);
+  constexpr int twoRows_px = 64;
+  strip->setFixedHeight(twoRows_px);
+  layers_->setFixedHeight(twoRows_px);
   mriColumn_ = column(strip, mri_);
   mreColumn_ = column(layers_, mre_);
   const auto splitter = [](Qt::Orientation orientation, QWidget* first, QWidget* second) {

@@ -68,6 +68,7 @@ QString styleSheet(const Colours& c) {
     QComboBox QAbstractItemView::item:selected { background: %accent; color: %accentText; }
     QTableWidget, QTreeWidget, QListWidget, QPlainTextEdit, QTextBrowser { background: %base; border: 1px solid %border;
       border-radius: 6px; alternate-background-color: %window; }
+    QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
     QHeaderView::section { background: %window; color: %faint; border: none; border-bottom: 1px solid %border; padding: 5px; }
     QSplitter::handle { background: %window; } QSplitter::handle:hover { background: %accent; }
     QProgressBar { background: %base; border: 1px solid %border; border-radius: 5px; height: 12px; text-align: center; }
