@@ -58,7 +58,7 @@ QString styleSheet(const Colours& c) {
     QCheckBox::indicator:checked { background: %accent; border-color: %accent; image: url(:/icons/tick.svg); }
     QCheckBox::indicator:checked:disabled { background: %faint; border-color: %faint; }
     QCheckBox:focus { color: %accent; }
-    QTreeWidget::item { padding: 4px 5px; }
+    QTreeWidget::item { padding: 4px 5px; } QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
     QComboBox { background: %base; border: 1px solid %border; border-radius: 5px; padding: 3px 0 3px 6px; min-height: 20px; }
     QComboBox:hover, QComboBox:focus { border-color: %accent; } QComboBox:disabled { color: %faint; }
     QComboBox::drop-down { border: none; width: 22px; } QComboBox::down-arrow { image: url(:/icons/chevron.svg); width: 12px; }
@@ -68,7 +68,6 @@ QString styleSheet(const Colours& c) {
     QComboBox QAbstractItemView::item:selected { background: %accent; color: %accentText; }
     QTableWidget, QTreeWidget, QListWidget, QPlainTextEdit, QTextBrowser { background: %base; border: 1px solid %border;
       border-radius: 6px; alternate-background-color: %window; }
-    QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
     QHeaderView::section { background: %window; color: %faint; border: none; border-bottom: 1px solid %border; padding: 5px; }
     QSplitter::handle { background: %window; } QSplitter::handle:hover { background: %accent; }
     QProgressBar { background: %base; border: 1px solid %border; border-radius: 5px; height: 12px; text-align: center; }
