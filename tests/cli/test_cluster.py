@@ -37,7 +37,7 @@ def kill_worker(results, shard):
     raise AssertionError("there was no worker to kill")
 
 
-@unittest.skipUnless(NUMBER >= 4, "GLISSON_CLUSTER_PATIENTS is not set")
+@unittest.skipUnless(NUMBER >= 4, "GLISSON_CLUSTER_PATIENTS does not ask for at least 4 patients")
 @unittest.skipUnless(shutil.which("snakemake") or slurm_node.installed(), "neither snakemake nor Slurm is installed")
 class Cluster(unittest.TestCase):
     @classmethod

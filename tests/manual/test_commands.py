@@ -28,7 +28,7 @@ def pages():
 
 
 def documents():
-    """README files first: the rooms' and the packaging's stand alone as well."""
+    """The README files, then the pages of the manual in their order."""
     readmes = [ROOT / "README.md", *sorted(p for room in ("core", "ui", "packaging") for p in (ROOT / room).rglob("README.md"))]
     return readmes + [MANUAL / page for page in pages()]
 
@@ -41,7 +41,7 @@ def blocks(document):
 def commands(text):
     """The commands of a block one by one if each stands in a line of its own, else the block."""
     lines = [line.split("  #")[0].strip() for line in text.splitlines()]
-    alone = all(re.match(r"(glisson-cli|packaging/|git|cd|cp|ls|cat|grep|head|python3 resources/)\S* ?", line) and line.count('"') % 2 == 0
+    alone = all(re.match(r"(glisson-cli|git|cd|cp|ls|cat|grep|head) |packaging/|python3 resources/", line) and line.count('"') % 2 == 0
                 and not line.endswith("\\") for line in lines if line)
     return [line for line in lines if line] if alone else [text]
 
